@@ -1,0 +1,53 @@
+"""The pier as one degree of freedom at the nominal impact height."""
+
+import math
+from dataclasses import dataclass
+
+from pierimpact.checks import InputError, not_negative, positive
+
+
+@dataclass(frozen=True, kw_only=True)
+class EquivalentPier:
+    """The pier's single-degree-of-freedom mass, spring and damper.
+
+    Parameters
+    ----------
+    mass : float
+        Equivalent mass m_p (Eq. 1 of the source paper) [kg].
+    stiffness : float
+        Static transverse stiffness k_p at the nominal impact height (Eq. 3) [N/m].
+    damping_ratio : float, optional
+        Fraction ζ of critical damping, from 0 to below 1 [-].
+
+    Raises
+    ------
+    InputError
+        When mass or stiffness is not positive, or the damping ratio is out of range.
+    """
+
+    mass: float
+    stiffness: float
+    damping_ratio: float = 0.05
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "mass", positive("mass", self.mass))
+        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
+        damping_ratio = not_negative("damping_ratio", self.damping_ratio)
+        if damping_ratio >= 1.0:
+            raise InputError(f"damping_ratio must be below 1, got {damping_ratio:g}")
+        object.__setattr__(self, "damping_ratio", damping_ratio)
+
+    @property
+    def circular_frequency(self) -> float:
+        """Undamped circular frequency ω_p = √(k_p/m_p) [rad/s]."""
+        return math.sqrt(self.stiffness / self.mass)
+
+    @property
+    def frequency(self) -> float:
+        """Undamped frequency f_p = ω_p/2π [Hz]."""
+        return self.circular_frequency / (2.0 * math.pi)
+
+    @property
+    def damping(self) -> float:
+        """Damping coefficient c_p = 2 ζ √(k_p m_p) [N s/m]."""
+        return 2.0 * self.damping_ratio * math.sqrt(self.stiffness * self.mass)
