@@ -3,6 +3,9 @@
 import math
 from typing import SupportsFloat
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 
 class InputError(ValueError):
     """A value breaks a rule; the message names the argument, the value and the rule."""
@@ -40,3 +43,33 @@ def one_of(name: str, value: str, choices: tuple[str, ...]) -> str:
     if value not in choices:
         raise InputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
     return value
+
+
+def positive_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return `values` as an array of finite numbers above zero, of any shape."""
+    array = _finite_array(name, values)
+    _refuse(name, array, array <= 0.0, "be positive")
+    return array
+
+
+def ratio_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return `values` as an array of numbers from zero to below one, of any shape."""
+    array = _finite_array(name, values)
+    _refuse(name, array, (array < 0.0) | (array >= 1.0), "lie from 0 to below 1")
+    return array
+
+
+def _finite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    try:
+        array = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} must be an array of numbers, got {values!r:.60}") from None
+    _refuse(name, array, ~np.isfinite(array), "be finite")
+    return array
+
+
+def _refuse(name: str, array: NDArray[np.float64], bad: NDArray[np.bool_], rule: str) -> None:
+    if np.any(bad):
+        place = tuple(int(i) for i in np.argwhere(bad)[0])
+        where = f" at index {place[0] if len(place) == 1 else place}" if place else ""
+        raise InputError(f"{name} must {rule}, got {array[place]:g}{where}")
