@@ -1,0 +1,49 @@
+import math
+
+import numpy as np
+import pytest
+
+from pierimpact import InputError
+from pierimpact.checks import not_negative, number, one_of, positive
+
+
+@pytest.mark.parametrize("check", [number, positive, not_negative])
+@pytest.mark.parametrize("value", [2, 2.0, np.float32(2.0), np.int64(2), np.array(2.0)])
+def test_numbers_become_floats(check, value):
+    result = check("speed", value)
+    assert type(result) is float
+    assert result == 2.0
+
+
+@pytest.mark.parametrize(
+    ("check", "value", "message"),
+    [
+        (number, "fast", "speed must be a number, got 'fast'"),
+        (number, None, "speed must be a number, got None"),
+        (number, [1.0, 2.0], r"speed must be a number, got \[1\.0, 2\.0\]"),
+        (number, 1j, "speed must be a number, got 1j"),
+        (number, math.nan, "speed must be finite, got nan"),
+        (number, -math.inf, "speed must be finite, got -inf"),
+        (positive, 0.0, "speed must be positive, got 0"),
+        (positive, math.nan, "speed must be finite, got nan"),
+        (not_negative, -1e-9, "speed must not be negative, got -1e-09"),
+    ],
+)
+def test_broken_rules_are_named(check, value, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        check("speed", value)
+
+
+def test_limits_are_inside():
+    assert not_negative("speed", 0.0) == 0.0
+    assert positive("speed", 5e-324) == 5e-324
+
+
+def test_one_of():
+    assert one_of("base", "fixed", ("fixed", "pinned")) == "fixed"
+    with pytest.raises(InputError, match=r"^base must be one of fixed, pinned, got 'Fixed'$"):
+        one_of("base", "Fixed", ("fixed", "pinned"))
+
+
+def test_input_errors_are_value_errors():
+    assert issubclass(InputError, ValueError)

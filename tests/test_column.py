@@ -1,0 +1,331 @@
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+import stiffness_method
+from generated_columns import GENERATED, MECHANISMS, STABLE, struck_columns
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pierimpact import CircularSection, EquivalentPier, InputError, PierColumn, RectangularSection
+
+EXAMPLE = {
+    "height": 5.0,
+    "section": CircularSection(diameter=0.914),
+    "elastic_modulus": 25e9,
+    "density": 2400.0,
+}
+# So slender that shear is below round-off: Euler and Bernoulli's beam.
+SLENDER = EXAMPLE | {"section": CircularSection(diameter=5e-6)}
+inside = st.floats(0.0, 1.0)
+
+
+def column(base, top, **changes):
+    return PierColumn(**(EXAMPLE | {"base": base, "top": top} | changes))
+
+
+# Independent computation
+
+
+@GENERATED
+@given(struck_columns(), st.lists(inside, max_size=3))
+def test_deflection_agrees_with_the_stiffness_method(case, fractions):
+    column, impact_height = case
+    others = [fraction * column.height for fraction in fractions]
+    heights = np.unique([0.0, *others, impact_height, column.height])
+    exact, _, _, _ = stiffness_method.solve(column, heights, impact_height)
+    exact = [float(deflection) for deflection in exact]
+    deflection = column.deflection(heights, impact_height)
+    np.testing.assert_allclose(deflection, exact, rtol=1e-9, atol=1e-100)
+    at_impact = exact[list(heights).index(impact_height)]
+    assert 1.0 / column.equivalent(impact_height).stiffness == pytest.approx(at_impact, rel=1e-12)
+
+
+@GENERATED
+@given(struck_columns())
+def test_equivalent_mass_agrees_with_the_stiffness_method(case):
+    column, impact_height = case
+    nodes, weights = np.polynomial.legendre.leggauss(5)
+    parts = [(0.0, impact_height)]
+    if impact_height < column.height:
+        parts.append((impact_height, column.height))
+    points = [start + (end - start) * (1.0 + nodes) / 2.0 for start, end in parts]
+    heights = np.unique(np.concatenate([[0.0, impact_height, column.height], *points]))
+    exact, _, _, _ = stiffness_method.solve(column, heights, impact_height)
+    deflection = dict(zip(heights, np.array(exact, dtype=float), strict=True))
+    integral = 0.0
+    for (start, end), z in zip(parts, points, strict=True):
+        shape = np.array([deflection[height] for height in z]) / deflection[impact_height]
+        integral += (end - start) / 2.0 * (weights @ shape**2)
+    mass = column.density * column.section.area * integral
+    assert column.equivalent(impact_height).mass == pytest.approx(mass, rel=1e-10)
+
+
+@GENERATED
+@given(struck_columns())
+def test_shear_part_is_what_a_softer_shear_area_adds(case):
+    # By Castigliano's theorem dx/d(1/κGA) is the integral of V², with forces left as they are.
+    column, impact_height = case
+    step = 1e-4
+    coefficient = column.section.shear_coefficient * 0.99
+
+    def struck(factor):
+        section = dataclasses.replace(column.section, shear_coefficient=coefficient * factor)
+        return dataclasses.replace(column, section=section).struck_at(impact_height)
+
+    here = struck(1.0)
+    softer, stiffer = (struck(1.0 / (1.0 + change)).impact_deflection for change in (step, -step))
+    assert here.shear_deflection == pytest.approx(
+        (softer - stiffer) / (2.0 * step), rel=1e-6, abs=1e-10 * here.impact_deflection
+    )
+
+
+# Closed forms
+
+
+@pytest.mark.parametrize("impact_height", [0.5, 1.2, 5.0])
+def test_cantilever(impact_height):
+    cantilever = column("fixed", "free")
+    bending = 25e9 * math.pi * 0.914**4 / 64.0
+    shearing = 25e9 / 2.4 * 0.9 * math.pi * 0.914**2 / 4.0
+    assert cantilever.flexural_rigidity == pytest.approx(bending, rel=1e-14)
+    assert cantilever.shear_rigidity == pytest.approx(shearing, rel=1e-14)
+    struck = cantilever.struck_at(impact_height)
+    assert struck.flexural_deflection == pytest.approx(
+        impact_height**3 / (3.0 * bending), rel=1e-13
+    )
+    assert struck.shear_deflection == pytest.approx(impact_height / shearing, rel=1e-13)
+    z = np.linspace(0.0, 5.0, 41)
+    below = z**2 * (3.0 * impact_height - z) / (6.0 * bending) + z / shearing
+    tangent = impact_height**2 / (2.0 * bending)
+    above = 1.0 / struck.stiffness + tangent * (z - impact_height)
+    expected = np.where(z <= impact_height, below, above)
+    np.testing.assert_allclose(cantilever.deflection(z, impact_height), expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("impact_height", [0.01, 1.2, 2.5, 4.9])
+def test_simple_beam(impact_height):
+    beam = column("pinned", "pinned")
+    a, b = impact_height, 5.0 - impact_height
+    struck = beam.struck_at(impact_height)
+    flexure = a**2 * b**2 / (3.0 * 5.0 * beam.flexural_rigidity)
+    assert struck.flexural_deflection == pytest.approx(flexure, rel=1e-12)
+    assert struck.shear_deflection == pytest.approx(a * b / (5.0 * beam.shear_rigidity), rel=1e-12)
+
+
+def test_fixed_ends_struck_in_the_middle():
+    struck = column("fixed", "fixed").struck_at(2.5)
+    flexure = 5.0**3 / (192.0 * struck.column.flexural_rigidity)
+    assert struck.flexural_deflection == pytest.approx(flexure, rel=1e-12)
+    assert struck.shear_deflection == pytest.approx(
+        5.0 / (4.0 * struck.column.shear_rigidity), rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("impact_height", [0.5, 1.2, 2.5, 4.5])
+def test_slender_columns_meet_the_textbook(impact_height):
+    a, b, length = impact_height, 5.0 - impact_height, 5.0
+    textbook = {
+        ("fixed", "pinned"): a**3 * b**2 * (3.0 * a + 4.0 * b) / (12.0 * length**3),
+        ("pinned", "fixed"): b**3 * a**2 * (3.0 * b + 4.0 * a) / (12.0 * length**3),
+        ("fixed", "fixed"): a**3 * b**3 / (3.0 * length**3),
+        ("pinned", "pinned"): a**2 * b**2 / (3.0 * length),
+        ("fixed", "free"): a**3 / 3.0,
+        ("free", "fixed"): b**3 / 3.0,
+    }
+    assert set(textbook) == set(STABLE)
+    for (base, top), value in textbook.items():
+        struck = column(base, top, **SLENDER).struck_at(impact_height)
+        deflection = struck.impact_deflection * struck.column.flexural_rigidity
+        assert deflection == pytest.approx(value, rel=1e-10), (base, top)
+
+
+@pytest.mark.parametrize(
+    ("base", "top", "impact_height", "fraction"),
+    [
+        ("fixed", "free", 5.0, 33.0 / 140.0),
+        ("free", "fixed", 0.0, 33.0 / 140.0),
+        ("pinned", "pinned", 2.5, 17.0 / 35.0),
+        ("fixed", "fixed", 2.5, 13.0 / 35.0),
+    ],
+)
+def test_mass_of_slender_columns_meets_the_textbook(base, top, impact_height, fraction):
+    slender = column(base, top, **SLENDER)
+    mass = slender.density * slender.section.area * 5.0
+    assert slender.mass_per_length * 5.0 == mass
+    assert slender.equivalent(impact_height).mass == pytest.approx(fraction * mass, rel=1e-10)
+
+
+@pytest.mark.parametrize(("base", "top"), STABLE)
+def test_squat_columns_deflect_in_straight_lines(base, top):
+    # All shear: each supported part is a shear spring, and what lies beyond is carried along.
+    squat = column(base, top, section=CircularSection(diameter=5e5))
+    supported = [length for end, length in [(base, 2.0), (top, 3.0)] if end != "free"]
+    springs = sum(squat.shear_rigidity / length for length in supported)
+    assert squat.equivalent(2.0).stiffness == pytest.approx(springs, rel=1e-8)
+    z = np.array([0.0, 0.5, 1.0, 2.0, 3.5, 4.5, 5.0])
+    below = np.ones(7) if base == "free" else z / 2.0
+    above = np.ones(7) if top == "free" else (5.0 - z) / 3.0
+    lines = np.where(z <= 2.0, below, above)
+    np.testing.assert_allclose(squat.shape(z, 2.0), lines, rtol=1e-8)
+    shape_integral = sum(supported) / 3.0 + (5.0 - sum(supported))
+    assert squat.struck_at(2.0).shape_integral == pytest.approx(shape_integral, rel=1e-8)
+
+
+# Invariants
+
+
+@GENERATED
+@given(struck_columns(), inside)
+def test_reciprocity(case, fraction):
+    column, here = case
+    there = (0.001 + 0.998 * fraction) * column.height
+    np.testing.assert_allclose(
+        column.deflection(there, here), column.deflection(here, there), rtol=1e-10
+    )
+
+
+@GENERATED
+@given(struck_columns(), st.lists(inside, min_size=1, max_size=4))
+def test_mirrored_column_deflects_in_mirror_image(case, fractions):
+    column, impact_height = case
+    mirrored = dataclasses.replace(column, base=column.top, top=column.base)
+    z = np.array(fractions) * column.height
+    shape = column.shape(z, impact_height)
+    image = mirrored.shape(column.height - z, column.height - impact_height)
+    np.testing.assert_allclose(shape, image, rtol=1e-9, atol=1e-12)
+    here = column.equivalent(impact_height)
+    there = mirrored.equivalent(column.height - impact_height)
+    assert here.mass == pytest.approx(there.mass, rel=1e-9)
+    assert here.stiffness == pytest.approx(there.stiffness, rel=1e-9)
+
+
+@GENERATED
+@given(struck_columns())
+def test_energy_of_the_unit_force_gives_the_deflected_shape(case):
+    # x(z_n) comes from the energies of flexure and shear, φ from the deflection line: both agree.
+    column, impact_height = case
+    assert column.shape(impact_height, impact_height) == pytest.approx(1.0, rel=1e-11)
+    just_above = np.nextafter(impact_height, column.height)
+    assert column.shape(just_above, impact_height) == pytest.approx(1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(("base", "top"), STABLE)
+def test_end_conditions_hold(base, top):
+    struck = column(base, top).struck_at(1.7)
+    ends = dict(zip((base, top), struck.shape([0.0, 5.0]), strict=True))
+    for condition, deflection in ends.items():
+        assert (deflection == 0.0) == (condition != "free")
+
+
+def test_stiffer_ends_give_a_stiffer_pier():
+    stiffness = [
+        column(base, top).equivalent(1.2).stiffness
+        for base, top in [("fixed", "free"), ("fixed", "pinned"), ("fixed", "fixed")]
+    ]
+    assert stiffness == sorted(stiffness)
+    assert len(set(stiffness)) == 3
+
+
+def test_depth_of_a_rectangle_lies_in_the_direction_of_travel():
+    along, across = (
+        column("fixed", "free", section=RectangularSection(width=width, depth=depth))
+        for width, depth in [(0.5, 2.0), (2.0, 0.5)]
+    )
+    ratio = along.struck_at(5.0).flexural_deflection / across.struck_at(5.0).flexural_deflection
+    assert ratio == pytest.approx(1.0 / 16.0, rel=1e-13)
+
+
+# Interface
+
+
+def test_equivalent_pier():
+    struck = column("fixed", "pinned").struck_at(1.2)
+    pier = column("fixed", "pinned").equivalent(1.2, damping_ratio=0.03)
+    assert pier == EquivalentPier(mass=struck.mass, stiffness=struck.stiffness, damping_ratio=0.03)
+    assert column("fixed", "pinned").equivalent(impact_height=1.2).damping_ratio == 0.05
+
+
+def test_deflection_follows_the_shape_of_z_and_the_force():
+    pier = column("fixed", "pinned")
+    z = np.linspace(0.0, 5.0, 6).reshape(2, 3)
+    assert pier.deflection(z, 1.2).shape == pier.shape(z, 1.2).shape == (2, 3)
+    assert pier.deflection(1.2, 1.2).shape == ()
+    np.testing.assert_allclose(
+        pier.deflection(z, 1.2, force=-3e6), -3e6 * pier.deflection(z, 1.2), rtol=1e-14
+    )
+
+
+@pytest.mark.parametrize(("base", "top"), MECHANISMS)
+def test_mechanisms_are_refused(base, top):
+    message = (
+        f"^base and top must include a fixed end or both be pinned, got base '{base}' and "
+        f"top '{top}': the column would be a mechanism$"
+    )
+    with pytest.raises(InputError, match=message):
+        column(base, top)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"height": 0.0}, "height must be positive, got 0"),
+        ({"elastic_modulus": math.nan}, "elastic_modulus must be finite, got nan"),
+        ({"density": -1.0}, "density must be positive, got -1"),
+        ({"poisson_ratio": -0.1}, r"poisson_ratio must not be negative, got -0\.1"),
+        ({"poisson_ratio": 0.6}, r"poisson_ratio must be at most 0\.5, got 0\.6"),
+        ({"base": "hinged"}, "base must be one of fixed, pinned, free, got 'hinged'"),
+        ({"top": None}, "top must be one of fixed, pinned, free, got None"),
+        (
+            {"section": 0.9},
+            r"section must be a CircularSection or a RectangularSection, got 0\.9",
+        ),
+    ],
+)
+def test_bad_values_are_named(changes, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        PierColumn(**(EXAMPLE | changes))
+
+
+@pytest.mark.parametrize(
+    ("base", "top", "impact_height", "rule"),
+    [
+        ("fixed", "pinned", 5.0, "above 0 m and below the height 5 m"),
+        ("fixed", "pinned", 0.0, "above 0 m and below the height 5 m"),
+        ("fixed", "free", 5.1, "above 0 m and at most the height 5 m"),
+        ("fixed", "free", 0.0, "above 0 m and at most the height 5 m"),
+        ("free", "fixed", -0.1, "at least 0 m and below the height 5 m"),
+        ("free", "fixed", 5.0, "at least 0 m and below the height 5 m"),
+    ],
+)
+def test_impact_off_the_column_or_on_a_support_is_refused(base, top, impact_height, rule):
+    message = (
+        f"^impact_height must be {rule} of a column with {base} base and {top} top, "
+        f"got {impact_height:g} m$"
+    )
+    pier = column(base, top)
+    for call in (
+        pier.equivalent,
+        lambda height: pier.deflection(1.0, height),
+        lambda height: pier.shape(1.0, height),
+        lambda height: pier.member_forces(1e6, height),
+    ):
+        with pytest.raises(InputError, match=message):
+            call(impact_height)
+
+
+@pytest.mark.parametrize("z", [-0.1, 5.1, [1.0, math.nan]])
+def test_heights_off_the_column_are_refused(z):
+    with pytest.raises(InputError, match=r"^z must be from 0 m to the height 5 m throughout$"):
+        column("fixed", "pinned").deflection(z, 1.2)
+
+
+def test_other_bad_arguments_are_named():
+    pier = column("fixed", "pinned")
+    with pytest.raises(InputError, match=r"^impact_height must be a number, got 'low'$"):
+        pier.equivalent("low")
+    with pytest.raises(InputError, match=r"^force must be finite, got inf$"):
+        pier.deflection(1.0, 1.2, force=math.inf)
+    with pytest.raises(InputError, match=r"^damping_ratio must be below 1, got 1\.5$"):
+        pier.equivalent(1.2, damping_ratio=1.5)

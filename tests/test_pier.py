@@ -1,0 +1,48 @@
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pierimpact import EquivalentPier, InputError
+
+
+@settings(deadline=None, derandomize=True)
+@given(st.floats(1e3, 1e6), st.floats(1e6, 1e11), st.floats(0.0, 0.99))
+def test_frequency_and_damping_are_those_of_the_free_vibration(mass, stiffness, damping_ratio):
+    pier = EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=damping_ratio)
+    # x'' + 2 ζ ω x' + ω² x = 0 has the roots ω (−ζ ± i √(1 − ζ²)).
+    omega = 2.0 * math.pi * pier.frequency
+    assert pier.circular_frequency == pytest.approx(omega, rel=1e-14)
+    expected = omega * complex(-damping_ratio, math.sqrt(1.0 - damping_ratio**2))
+    roots = np.roots([mass, pier.damping, stiffness])
+    assert roots[np.argmax(roots.imag)] == pytest.approx(expected, rel=1e-6)
+
+
+def test_damping_ratio_by_default():
+    assert EquivalentPier(mass=8e3, stiffness=284e6).damping_ratio == 0.05
+
+
+def test_values_become_floats_and_stay():
+    pier = EquivalentPier(mass=np.int64(8000), stiffness=np.float32(284e6), damping_ratio=0)
+    assert [type(value) for value in dataclasses.astuple(pier)] == [float, float, float]
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        pier.mass = 1.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"mass": 0.0}, "mass must be positive, got 0"),
+        ({"mass": None}, "mass must be a number, got None"),
+        ({"stiffness": -1.0}, "stiffness must be positive, got -1"),
+        ({"stiffness": math.inf}, "stiffness must be finite, got inf"),
+        ({"damping_ratio": -0.01}, r"damping_ratio must not be negative, got -0\.01"),
+        ({"damping_ratio": 1.0}, "damping_ratio must be below 1, got 1"),
+    ],
+)
+def test_bad_values_are_named(changes, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        EquivalentPier(**({"mass": 8e3, "stiffness": 284e6} | changes))

@@ -1,0 +1,67 @@
+import dataclasses
+import math
+
+import pytest
+
+from pierimpact import CrushSpring, InputError, Truck
+
+SPRING = CrushSpring(
+    plateau_force=150e3, plateau_length=0.5, stiffness=150e6, unloading_stiffness=900e6
+)
+STIFF = dataclasses.replace(SPRING, stiffness=300e6)
+EXAMPLE = {
+    "name": "test truck",
+    "engine_mass": 700.0,
+    "body_mass": 7300.0,
+    "engine_spring": SPRING,
+    "body_spring": STIFF,
+}
+
+
+def test_defaults():
+    truck = Truck(**EXAMPLE)
+    assert (truck.friction_force, truck.friction_on, truck.source) == (0.0, "road", "not given")
+    assert truck.mass == 700.0 + 7300.0
+
+
+def test_other_cargo_changes_the_body_mass_alone():
+    truck = Truck(**EXAMPLE, friction_force=21.5e3, friction_on="pier", source="a source")
+    laden = truck.with_mass(20e3)
+    assert laden.mass == 20e3
+    assert laden == dataclasses.replace(truck, body_mass=20e3 - 700.0)
+    assert laden.with_mass(truck.mass) == truck
+
+
+@pytest.mark.parametrize(
+    ("mass", "message"),
+    [
+        (700.0, "mass must exceed the engine's 700 kg, got 700 kg"),
+        (0.0, "mass must be positive, got 0"),
+        (math.inf, "mass must be finite, got inf"),
+    ],
+)
+def test_a_truck_is_heavier_than_its_engine(mass, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        Truck(**EXAMPLE).with_mass(mass)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"engine_mass": 0.0}, "engine_mass must be positive, got 0"),
+        ({"body_mass": -1.0}, "body_mass must be positive, got -1"),
+        ({"body_mass": "full"}, "body_mass must be a number, got 'full'"),
+        ({"friction_force": -5.0}, "friction_force must not be negative, got -5"),
+        ({"friction_on": "air"}, "friction_on must be one of road, pier, got 'air'"),
+        ({"engine_spring": 150e3}, r"engine_spring must be a CrushSpring, got 150000\.0"),
+        ({"body_spring": None}, "body_spring must be a CrushSpring, got None"),
+    ],
+)
+def test_bad_values_are_named(changes, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        Truck(**(EXAMPLE | changes))
+
+
+def test_trucks_do_not_change():
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        Truck(**EXAMPLE).body_mass = 1.0
