@@ -298,7 +298,7 @@ def predict(watched: list[Watched], longest: Real, ops: Ops) -> Real:
     """Return a first trial step: the longest, or to where the first watched rate leads."""
     where = ops.where
     h = longest
-    for value, rate in watched:
+    for value, rate in watched[:PIER_TURN]:
         approaches = (value < -TOLERANCE) & (rate > 0.0)
         arrival = -value / where(approaches, rate, 1.0)
         h = where(approaches & (arrival < h), arrival, h)
@@ -327,43 +327,48 @@ def first_change(
         A shorter step to try where the step oversteps a change; `h` where it does not; zero
         where the change is due at the start [s].
     """
-    where, negate = ops.where, ops.negate
+    where, negate, some = ops.where, ops.negate, ops.some
     event, sooner = NONE + 0.0 * h, h
     for which, ((g, rate), (g_h, rate_h)) in enumerate(zip(before, after, strict=True)):
         armed = g < -TOLERANCE
-        counts = armed & records if which == PIER_TURN else True
-        over = (g_h > TOLERANCE) & counts
-        # A quantity that rises and falls within the step may have been over zero in between:
-        # it was not if the tangents at both ends meet below zero.
-        fall = rate - rate_h
-        humps = (rate > 0.0) & (rate_h < 0.0) & negate(over) & counts
-        safe_fall = where(humps, fall, 1.0)
-        humps = humps & (g + rate * (g_h - g - rate_h * h) / safe_fall > TOLERANCE)
-        due = negate(armed) & over & ((rate > TOLERANCE) | (g > TOLERANCE))
+        counts = (armed & records) if which == PIER_TURN else True
+        near = (g_h >= -TOLERANCE) & counts
+        turns = (rate > 0.0) & (rate_h < 0.0) & counts
+        if not some(near | turns):
+            continue
+        over = g_h > TOLERANCE
+        # A quantity that rises and falls within the step was over zero in between unless the
+        # tangents at both ends meet below zero.
+        fall = where(turns, rate - rate_h, 1.0)
+        humps = turns & negate(over) & (g + rate * (g_h - g - rate_h * h) / fall > TOLERANCE)
+        over = over & counts
+        due = over & negate(armed) & ((rate > TOLERANCE) | (g > TOLERANCE))
+        root = crossing(g, rate, where(over, g_h, g + 1.0), rate_h, h, ops)
         trial = where(
             over,
-            where(armed, crossing(g, rate, g_h, rate_h, h, ops), where(due, 0.0, 0.5 * h)),
-            where(humps, h * rate / safe_fall, h),
+            where(armed, root, where(due, 0.0, 0.5 * h)),
+            where(humps, h * rate / fall, h),
         )
         first = trial < sooner
         sooner = where(first, trial, sooner)
-        hit = armed & negate(over) & (g_h >= -TOLERANCE) & counts
-        event = where(first, where(due, which, NONE), where(hit & (sooner >= h), which, event))
+        hit = near & armed & negate(over) & (sooner >= h)
+        event = where(first, where(due, which, NONE), where(hit, which, event))
     return event, sooner
 
 
 def crossing(g: Real, rate: Real, g_h: Real, rate_h: Real, h: Real, ops: Ops) -> Real:
     """Estimate where a quantity that is negative at 0 and positive at `h` crosses zero.
 
-    Inverse cubic interpolation on both values and rates; the middle where that leaves the step.
+    Inverse cubic interpolation on values and rates, or the chord where that would not be
+    monotone.
     """
     where = ops.where
-    rises = (rate > 0.0) & (rate_h > 0.0) & (g_h > g)
-    gain = where(rises, g_h - g, 1.0)
-    r = -g / gain
-    shift = (1.0 - r) / where(rises, rate, 1.0) - r / where(rises, rate_h, 1.0)
-    estimate = h * r * r * (3.0 - 2.0 * r) + gain * r * (1.0 - r) * shift
-    return where(rises & (estimate > 0.0) & (estimate < h), estimate, 0.5 * h)
+    r = -g / (g_h - g)
+    slope = (g_h - g) / (3.0 * h)
+    cubic = (rate > slope) & (rate_h > slope)
+    shift = (1.0 - r) / where(cubic, rate, 1.0) - r / where(cubic, rate_h, 1.0)
+    curved = h * r * r * (3.0 - 2.0 * r) + (g_h - g) * r * (1.0 - r) * shift
+    return where(cubic & (curved < h), curved, r * h)
 
 
 def advance(
