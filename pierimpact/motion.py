@@ -383,6 +383,10 @@ def advance(
         engine = change(case.engine, engine, event, at.d1, ops)
         body = change(case.body, body, event - 3, at.d2, ops)
         slip, stuck, at = rub(case, law, state, body, at, event, ops)
+        # A rate left over from round-off would fire the next change at once, for ever.
+        at = at._replace(
+            u1=where(event == TURN, 0.0, at.u1), u2=where(event == TURN + 3, 0.0, at.u2)
+        )
 
     contact = state.cargo_contact == state.cargo_contact
     raises = negate(contact) & (at.xp > state.engine_peak)
