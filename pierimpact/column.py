@@ -235,8 +235,8 @@ class StruckColumn:
         )
         # Seen from the base, the part above turns, and is bent by the joint, the other way.
         above *= np.array([[1.0], [-1.0], [-1.0], [1.0]])
-        # Each end's two unknowns follow from the joint's deflection and rotation, and give the
-        # part's moment and shear at the joint: no moment is left there, and the unit force.
+        # Each end's two unknowns follow from the joint's deflection and rotation, and so do the
+        # part's moment and shear there. Together the parts balance no moment and a unit force.
         from_joint = [np.linalg.inv(part[:2]) for part in (below, above)]
         stiffness = below[2:] @ from_joint[0] + above[2:] @ from_joint[1]
         joint = np.linalg.solve(stiffness, [0.0, 1.0])
