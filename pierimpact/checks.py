@@ -15,7 +15,7 @@ def number(name: str, value: SupportsFloat) -> float:
     """Return `value` as a finite float."""
     try:
         result = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name} must be a number, got {value!r}") from None
     if not math.isfinite(result):
         raise InputError(f"{name} must be finite, got {result}")
