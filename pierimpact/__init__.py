@@ -9,8 +9,10 @@ if TYPE_CHECKING:
     from pierimpact.collision import peak_reactions, simulate
     from pierimpact.column import PierColumn
     from pierimpact.crush import CrushSpring
+    from pierimpact.design import design_reaction, design_reactions
     from pierimpact.pier import EquivalentPier
     from pierimpact.sections import CircularSection, RectangularSection
+    from pierimpact.spectra import cargo_spectrum, engine_spectrum
     from pierimpact.truck import Truck
 
 __version__ = "0.1.0"
@@ -25,6 +27,10 @@ _HOMES = {
     "PierColumn": "column",
     "RectangularSection": "sections",
     "Truck": "truck",
+    "cargo_spectrum": "spectra",
+    "design_reaction": "design",
+    "design_reactions": "design",
+    "engine_spectrum": "spectra",
     "load_truck": "catalogue",
     "peak_reactions": "collision",
     "simulate": "collision",
@@ -38,6 +44,10 @@ __all__ = [
     "PierColumn",
     "RectangularSection",
     "Truck",
+    "cargo_spectrum",
+    "design_reaction",
+    "design_reactions",
+    "engine_spectrum",
     "load_truck",
     "peak_reactions",
     "simulate",

@@ -1,19 +1,18 @@
 """The collision by the coupled mass-spring-damper (CMSD) model."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import InputError, not_negative, positive, positive_array, ratio_array
-from pierimpact.crush import CrushSpring
+from pierimpact.cases import collision, collisions
+from pierimpact.checks import not_negative, positive
 from pierimpact.history import CollisionHistory, RecordedStep
-from pierimpact.motion import OUTCOMES, Collision, Spring, State, Step, follow, follow_all
+from pierimpact.motion import OUTCOMES, State, Step, follow, follow_all
 from pierimpact.pier import EquivalentPier
 from pierimpact.truck import Truck
-
-CHUNK = 2048  # collisions side by side: their arrays stay in the processor's cache
 
 
 def simulate(
@@ -44,16 +43,7 @@ def simulate(
         When the speed is not positive or the duration is negative.
     """
     speed, duration = positive("speed", speed), not_negative("duration", duration)
-    case = Collision(
-        engine=_spring(truck.engine_mass, truck.engine_spring),
-        body=_spring(truck.body_mass, truck.body_spring),
-        friction_force=truck.friction_force,
-        on_pier=truck.friction_on == "pier",
-        pier_mass=pier.mass,
-        pier_stiffness=pier.stiffness,
-        pier_damping=pier.damping,
-        speed=speed,
-    )
+    case = collision(truck, pier, speed)
     steps: list[RecordedStep] = []
 
     def record(state: State, step: Step, length: float) -> None:
@@ -62,16 +52,6 @@ def simulate(
 
     end = follow(case, duration, record)
     return CollisionHistory(truck=truck, pier=pier, speed=speed, case=case, steps=steps, end=end)
-
-
-def _spring(mass: float, spring: CrushSpring) -> Spring:
-    return Spring(
-        mass,
-        spring.plateau_force,
-        spring.plateau_length,
-        spring.stiffness,
-        spring.unloading_stiffness,
-    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,59 +114,20 @@ def peak_reactions(
     InputError
         When a value is out of range or the shapes do not broadcast.
     """
-    trucks = [truck] if isinstance(truck, Truck) else list(truck)
-    inputs = {
-        "pier_mass": positive_array("pier_mass", pier_mass),
-        "pier_stiffness": positive_array("pier_stiffness", pier_stiffness),
-        "damping_ratio": ratio_array("damping_ratio", damping_ratio),
-        "speed": positive_array("speed", speed),
-    }
-    which = np.zeros((), dtype=int) if isinstance(truck, Truck) else np.arange(len(trucks))
-    try:
-        which, *arrays = np.broadcast_arrays(which, *inputs.values())
-    except ValueError:
-        shapes = {"truck": which.shape} | {name: np.shape(x) for name, x in inputs.items()}
-        listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise InputError(f"shapes must broadcast against each other, got {listed}") from None
-    table = _table(trucks)
-    shape, size = which.shape, which.size
-    which, mass, stiffness, ratio, speeds = (array.reshape(-1) for array in (which, *arrays))
-    outcomes = np.empty((len(OUTCOMES), size))
-    for first in range(0, size, CHUNK):
-        part = slice(first, first + CHUNK)
-        columns = table[:, which[part]]
-        case = Collision(
-            engine=Spring(*columns[0:5]),
-            body=Spring(*columns[5:10]),
-            friction_force=columns[10],
-            on_pier=columns[11] > 0.0,
-            pier_mass=mass[part],
-            pier_stiffness=stiffness[part],
-            pier_damping=2.0 * ratio[part] * np.sqrt(stiffness[part] * mass[part]),
-            speed=speeds[part],
-        )
-        outcomes[:, part] = follow_all(case)
-    found = dict(zip(OUTCOMES, outcomes.reshape(-1, *shape), strict=True))
-    whole = stiffness.reshape(shape)
-    return PeakReactions(
-        engine=whole * found["engine_peak"],
-        cargo=whole * found["cargo_peak"],
-        engine_time=found["engine_peak_time"],
-        cargo_time=found["cargo_peak_time"],
-        engine_contact_time=found["engine_contact"],
-        cargo_contact_time=found["cargo_contact"],
+    shape, parts = collisions(truck, pier_mass, pier_stiffness, damping_ratio, speed)
+    found = np.empty((len(OUTCOMES), math.prod(shape)))
+    for part, case in parts:
+        found[:, part] = follow_all(case)
+        found[2, part] *= case.pier_stiffness
+        found[4, part] *= case.pier_stiffness
+    engine_contact, cargo_contact, engine, engine_time, cargo, cargo_time = found.reshape(
+        -1, *shape
     )
-
-
-def _table(trucks: Sequence[Truck]) -> NDArray[np.float64]:
-    """Return one column of parameters a truck, in the order of the equations' structures."""
-    rows = [
-        (
-            *_spring(truck.engine_mass, truck.engine_spring),
-            *_spring(truck.body_mass, truck.body_spring),
-            truck.friction_force,
-            float(truck.friction_on == "pier"),
-        )
-        for truck in trucks
-    ]
-    return np.array(rows).reshape(-1, 12).T
+    return PeakReactions(
+        engine=engine,
+        cargo=cargo,
+        engine_time=engine_time,
+        cargo_time=cargo_time,
+        engine_contact_time=engine_contact,
+        cargo_contact_time=cargo_contact,
+    )

@@ -593,13 +593,15 @@ OUTCOMES = (
 )
 
 
-def follow_all(case: Collision) -> NDArray[np.float64]:
+def follow_all(case: Collision, state: State | None = None) -> NDArray[np.float64]:
     """Propagate collisions side by side until nothing more can happen in any.
 
     Parameters
     ----------
     case : Collision
         Arrays of shape (n,).
+    state : State, optional
+        Where to start from, instead of first touch; arrays of shape (n,).
 
     Returns
     -------
@@ -611,7 +613,7 @@ def follow_all(case: Collision) -> NDArray[np.float64]:
     RuntimeError
         When a collision does not come to an end.
     """
-    state = start(case, ARRAYS)
+    state = start(case, ARRAYS) if state is None else state
     outcomes = np.empty((len(OUTCOMES), len(case.speed)))
     left = np.arange(len(case.speed))
     moved: Flag = True
