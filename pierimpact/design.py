@@ -14,9 +14,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pierimpact import domain
 from pierimpact.cases import collision, collisions
 from pierimpact.checks import one_of, positive
-from pierimpact.domain import outside
 from pierimpact.equations import DesignStep, steps
 from pierimpact.formulas import (
     LATE_SHARE,
@@ -156,7 +156,7 @@ def design_reaction(
         cargo=None if math.isnan(cargo) else cargo,
         level=level,
         values=values,
-        warnings=tuple(outside(case)),
+        warnings=domain.warnings(case),
     )
 
 

@@ -1,6 +1,7 @@
 """The domain in which the design formulas were studied."""
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +33,7 @@ DOMAIN: dict[str, tuple[float, float, str]] = {
 SPRING = ("plateau force", "plateau length", "stiffness", "unloading stiffness")
 
 
-def values(case: Collision) -> dict[str, Array]:
+def values(case: Collision) -> dict[str, Any]:
     """Return what DOMAIN bounds, of a collision or of many."""
     found = {
         "truck mass": case.engine.mass + case.body.mass,
@@ -50,15 +51,16 @@ def values(case: Collision) -> dict[str, Array]:
     return found
 
 
-def outside(case: Collision) -> list[str]:
-    """Return the names of DOMAIN that one collision, or any of many, is outside of."""
+def warnings(case: Collision) -> tuple[str, ...]:
+    """Return a sentence for each value of one collision that is outside the studied domain."""
     found = values(case)
     # A bound met but for round-off is met.
-    return [
-        name
-        for name, (low, high, _) in DOMAIN.items()
-        if np.any((found[name] < low * (1.0 - 1e-9)) | (found[name] > high * (1.0 + 1e-9)))
-    ]
+    return tuple(
+        f"{name} {found[name]:.4g} {unit} is outside the studied {low:.4g} to {high:.4g} {unit}: "
+        f"the design formulas were not checked there"
+        for name, (low, high, unit) in DOMAIN.items()
+        if not low * (1.0 - 1e-9) <= found[name] <= high * (1.0 + 1e-9)
+    )
 
 
 def sample(size: int, seed: int) -> Collision:

@@ -13,11 +13,11 @@ Real: TypeAlias = Any  # a float, or an array
 
 # The coefficients of the closed spectrum, fitted by `pierimpact.study`, and of the two rules for
 # the cargo, chosen on its cases.
-HUMP = 1.45
-HUMP_END = 3.1
+HUMP = 1.44
+HUMP_END = 3.08
 HUMP_DECLINE = 3.1
-MASS_EFFECT = 1.44
-DAMPING_EFFECT = 5.4
+MASS_EFFECT = 1.42
+DAMPING_EFFECT = 5.2
 RINGING_SHARE = 0.6
 RINGING_BETA = 2.0
 LATE_SHARE = 0.8
@@ -44,7 +44,7 @@ def amplification(
     """Return the amplification S of the unified spectrum, in closed form [-].
 
     1/S² = 1/[(1 + e) β]² + (1 + μ/β²)/Q², with the hump
-    Q = 1 + 1.45 e^(−5.4 ζ) / {[1 + (β/3.1)^3.1] (1 + 1.44 μ/β)}.
+    Q = 1 + 1.44 e^(−5.2 ζ) / {[1 + (β/3.08)^3.1] (1 + 1.42 μ/β)}.
 
     It meets exactly: S → (1 + e) β for a soft heavy pier (impulse), S → 1 for a stiff heavy one,
     S → 1/√(1 + k_i/k_p) for a massless one, as k_i/k_p = μ/β².
