@@ -2,6 +2,7 @@
 
 import datetime
 import hashlib
+import math
 import unicodedata
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -141,9 +142,10 @@ class Inputs(BaseModel):
 
 KEYS = tuple(Inputs.model_fields)
 #: Keys whose source a case file can give, or that it can mark as assumed.
-PHYSICAL_KEYS = KEYS[KEYS.index("column_shape") : KEYS.index("units")] + (
-    "shear_resistance",
-    "moment_resistance",
+PHYSICAL_KEYS = tuple(
+    key
+    for key in KEYS[KEYS.index("column_shape") : KEYS.index("assumed")]
+    if key not in ("truck", "units")
 )
 
 
@@ -270,7 +272,7 @@ def concrete_modulus(strength: float) -> float:
     float
         Elastic modulus [Pa].
     """
-    return 4700e6 * (strength / 1e6) ** 0.5
+    return 4700e6 * math.sqrt(strength / 1e6)
 
 
 def _column(inputs: Inputs) -> PierColumn:
@@ -336,7 +338,7 @@ class _Loader(yaml.SafeLoader):
     """YAML's safe loader, for which a key given twice is an error."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        keys = [self.construct_object(key, deep=True) for key, _ in node.value]  # type: ignore[no-untyped-call]
+        keys = [self.construct_object(key, deep=True) for key, _ in node.value]
         for index, key in enumerate(keys):
             if key in keys[:index]:
                 raise InputError(f"{key} is given twice")

@@ -2,7 +2,7 @@
 
 import hashlib
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -172,7 +172,7 @@ def _validated(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile:
     for spring in ("engine_spring", "body_spring"):
         try:
             springs[spring] = CrushSpring(
-                **{n: values.pop(f"{spring}.{n}") for n in CrushSpring.__dataclass_fields__}  # type: ignore[arg-type]
+                **{n: values.pop(f"{spring}.{n}") for n in CrushSpring.__dataclass_fields__}
             )
         except InputError as error:
             raise InputError(f"{spring}.{error}") from None
@@ -217,8 +217,8 @@ def _parameter(name: str, entry: object) -> Parameter:
     )
 
 
-def _only_known(table: Mapping[str, object], known: Any, kind: str) -> None:
-    for name in table:
+def _only_known(names: Iterable[str], known: Collection[str], kind: str) -> None:
+    for name in names:
         if name not in known:
             near = nearest(name, known)
             raise InputError(f"{name} is not {kind}" + (f"; did you mean {near}?" if near else ""))

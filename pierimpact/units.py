@@ -168,7 +168,7 @@ class Quantity:
 
 QUANTITIES = {
     "length": Quantity(("m", "m"), ("ft", "ft"), 5),
-    "section length": Quantity(("mm", "mm"), ("in", "in"), 5),
+    "section length": Quantity(("m", "m"), ("in", "in"), 5),
     "area": Quantity(("m^2", "m²"), ("in^2", "in²"), 5),
     "second moment": Quantity(("m^4", "m⁴"), ("in^4", "in⁴"), 5),
     "modulus": Quantity(("GPa", "GPa"), ("ksi", "ksi"), 5),
@@ -178,8 +178,8 @@ QUANTITIES = {
     "mass per length": Quantity(("kg/m", "kg/m"), ("lb/ft", "lb/ft"), 5),
     "flexural rigidity": Quantity(("MN*m^2", "MN·m²"), ("kip*ft^2", "kip·ft²"), 5),
     "shear rigidity": Quantity(("MN", "MN"), ("kip", "kip"), 5),
-    "flexibility": Quantity(("mm/MN", "mm/MN"), ("in/kip", "in/kip"), 5),
-    "stiffness": Quantity(("MN/m", "MN/m"), ("kip/in", "kip/in"), 4),
+    "flexibility": Quantity(("m/MN", "m/MN"), ("ft/kip", "ft/kip"), 5),
+    "stiffness": Quantity(("MN/m", "MN/m"), ("kip/ft", "kip/ft"), 5),
     "mass stiffness": Quantity(("kg/s^2", "kg/s²"), ("lb/s^2", "lb/s²"), 5),
     "damping": Quantity(("kN*s/m", "kN·s/m"), ("kip*s/ft", "kip·s/ft"), 4),
     "frequency": Quantity(("Hz", "Hz"), ("Hz", "Hz"), 4),
@@ -187,6 +187,8 @@ QUANTITIES = {
     "force": Quantity(("kN", "kN"), ("kip", "kip"), 4),
     "moment": Quantity(("kN*m", "kN·m"), ("kip*ft", "kip·ft"), 4),
     "time": Quantity(("ms", "ms"), ("ms", "ms"), 4),
+    "share": Quantity(("", ""), ("", ""), 5),
+    "ordinate": Quantity(("", ""), ("", ""), 4),
     "ratio": Quantity(("", ""), ("", ""), 4),
 }
 
@@ -201,15 +203,13 @@ class Printed(NamedTuple):
         return f"{self.number} {self.unit}" if self.unit else self.number
 
 
-def in_unit(value: float, quantity: str, system: str) -> float:
-    """Return a value given in SI units in the unit it is printed in."""
+def unit_size(quantity: str, system: str) -> float:
+    """Return how large the unit is that a kind of value is printed in, in SI units."""
     kind = QUANTITIES[quantity]
     expression = (kind.si if system == "SI" else kind.us)[0]
-    if not expression:
-        return value
-    unit = _unit(expression)
+    unit = _unit(expression) if expression else (1.0, {})
     assert unit is not None
-    return value / unit[0]
+    return unit[0]
 
 
 def unit_of(quantity: str, system: str) -> str:
@@ -232,7 +232,7 @@ def printed(value: float, quantity: str, system: str, *, given: bool = False) ->
     given : bool, optional
         Whether it is an input, and prints without zeros that nobody typed.
     """
-    text = rounded(in_unit(value, quantity, system), QUANTITIES[quantity].digits)
+    text = rounded(value / unit_size(quantity, system), QUANTITIES[quantity].digits)
     if given and "." in text and "×" not in text:
         text = text.rstrip("0").rstrip(".")
     return Printed(text, unit_of(quantity, system))
