@@ -141,6 +141,8 @@ class Inputs(BaseModel):
 
 
 KEYS = tuple(Inputs.model_fields)
+#: Parameters of the report notebook that are no keys of a case file.
+NOTEBOOK_PARAMETERS = ("case_file", "case_sha256")
 #: Keys whose source a case file can give, or that it can mark as assumed.
 PHYSICAL_KEYS = tuple(
     key
@@ -255,6 +257,32 @@ def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:
     for impact_height in case.impact_heights:
         case.column.struck_at(impact_height)  # an error here is better than one halfway
     return case
+
+
+def case_from_notebook(namespace: Mapping[str, object]) -> Case:
+    """Return the case that a notebook's parameters describe.
+
+    Every plain value among the notebook's variables is taken for a key, so that a misspelt one
+    is found even though papermill passes it on.
+
+    Parameters
+    ----------
+    namespace : mapping of str to object
+        The notebook's variables, `globals()`.
+
+    Raises
+    ------
+    InputError
+        When a key is unknown or missing, or a value breaks a rule.
+    """
+    values = {
+        name: value
+        for name, value in namespace.items()
+        if not name.startswith("_")
+        and name not in (*NOTEBOOK_PARAMETERS, "In", "Out")
+        and isinstance(value, str | int | float | list | dict | datetime.date | None)
+    }
+    return case_from(values)
 
 
 def concrete_modulus(strength: float) -> float:

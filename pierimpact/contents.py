@@ -1,5 +1,7 @@
 """What the calculation sheet of a case says: one function a piece."""
 
+import datetime
+import re
 from collections.abc import Iterator
 
 import pierimpact
@@ -23,19 +25,19 @@ from pierimpact.units import Printed, printed, rounded, unit_of
 
 # Name, symbol and kind of quantity of the keys of a case file; no kind where the value is a word.
 _INPUTS = {
-    "column_shape": ("Column, shape of section", "", ""),
-    "column_diameter": ("diameter", "D", "section length"),
-    "column_width": ("width across the travel", "b", "section length"),
-    "column_depth": ("depth along the travel", "h", "section length"),
-    "column_height": ("height", "H", "length"),
-    "elastic_modulus": ("elastic modulus", "E", "modulus"),
-    "concrete_strength": ("concrete strength", r"f_\mathrm{c}'", "strength"),
+    "column_shape": ("Shape of the section", "", ""),
+    "base": ("Base of the column", "", ""),
+    "top": ("Top of the column", "", ""),
+    "column_diameter": ("Column diameter", "D", "section length"),
+    "column_width": ("Column width, across the travel", "b", "section length"),
+    "column_depth": ("Column depth, along the travel", "h", "section length"),
+    "column_height": ("Column height", "H", "length"),
+    "elastic_modulus": ("Elastic modulus", "E", "modulus"),
+    "concrete_strength": ("Concrete strength", r"f_\mathrm{c}'", "strength"),
     "poisson_ratio": ("Poisson’s ratio", r"\nu", "ratio"),
-    "density": ("density", r"\rho", "density"),
-    "base": ("base", "", ""),
-    "top": ("top", "", ""),
-    "truck_mass": ("Truck, total mass", "m_1 + m_2", "mass"),
-    "speed": ("speed at first touch", "V", "speed"),
+    "density": ("Density", r"\rho", "density"),
+    "truck_mass": ("Total mass of the truck", "m_1 + m_2", "mass"),
+    "speed": ("Speed at first touch", "V", "speed"),
     "impact_height": ("Nominal impact height", r"z_\mathrm{n}", "length"),
     "damping_ratio": ("Damping ratio of the pier", r"\zeta", "ratio"),
     "shear_resistance": ("Resistance to shear", r"V_\mathrm{R}", "force"),
@@ -43,18 +45,26 @@ _INPUTS = {
 }
 
 _TRUCK_PARAMETERS = {
-    "engine_mass": ("Engine, mass", "m_1", "mass"),
-    "body_mass": ("Body with cargo, mass", "m_2", "mass"),
-    "friction_force": ("friction", r"c_\mathrm{s}", "force"),
-    "friction_on": ("friction acts against the", "", ""),
-    "engine_spring.plateau_force": ("Spring 1 (engine), plateau force", "P_1", "force"),
-    "engine_spring.plateau_length": ("plateau length", "d_1", "length"),
-    "engine_spring.stiffness": ("steep stiffness", "k_1", "stiffness"),
-    "engine_spring.unloading_stiffness": ("unloading stiffness", r"k_\mathrm{u1}", "stiffness"),
-    "body_spring.plateau_force": ("Spring 2 (body), plateau force", "P_2", "force"),
-    "body_spring.plateau_length": ("plateau length", "d_2", "length"),
-    "body_spring.stiffness": ("steep stiffness", "k_2", "stiffness"),
-    "body_spring.unloading_stiffness": ("unloading stiffness", r"k_\mathrm{u2}", "stiffness"),
+    "engine_mass": ("Engine mass", "m_1", "mass"),
+    "body_mass": ("Mass of body and cargo", "m_2", "mass"),
+    "friction_force": ("Friction on the body", r"c_\mathrm{s}", "force"),
+    "friction_on": ("Friction acts against the", "", ""),
+    "engine_spring.plateau_force": ("Engine spring: plateau force", "P_1", "force"),
+    "engine_spring.plateau_length": ("Engine spring: plateau length", "d_1", "length"),
+    "engine_spring.stiffness": ("Engine spring: steep stiffness", "k_1", "stiffness"),
+    "engine_spring.unloading_stiffness": (
+        "Engine spring: unloading stiffness",
+        r"k_\mathrm{u1}",
+        "stiffness",
+    ),
+    "body_spring.plateau_force": ("Body spring: plateau force", "P_2", "force"),
+    "body_spring.plateau_length": ("Body spring: plateau length", "d_2", "length"),
+    "body_spring.stiffness": ("Body spring: steep stiffness", "k_2", "stiffness"),
+    "body_spring.unloading_stiffness": (
+        "Body spring: unloading stiffness",
+        r"k_\mathrm{u2}",
+        "stiffness",
+    ),
 }
 
 # How the statuses of a truck file read in print.
@@ -68,10 +78,10 @@ _STATUSES = {
 }
 
 
-def title_block(calculation: Calculation, today: str) -> Block:
-    """Return the head of the sheet; where the case gives no date, it is of `today`."""
+def title_block(calculation: Calculation) -> Block:
+    """Return the head of the sheet; where the case gives no date, it is today's."""
     inputs = calculation.case.inputs
-    date = inputs.date.isoformat() if inputs.date else today
+    date = (inputs.date or datetime.date.today()).isoformat()
     return TitleBlock(
         title="Truck collision with a bridge pier",
         subtitle="Calculation sheet. Coupled mass-spring-damper (CMSD) model of the collision",
@@ -196,10 +206,15 @@ def _input_row(calculation: Calculation, key: str) -> list[Inline]:
         word = "by the rule" if value == "auto" else value
         return [name, Tex(symbol) if symbol else "", word, "", status, source]
     shown = printed(value, quantity, case.inputs.units, given=True)
-    typed = str(case.given.get(key, ""))
-    if shown.unit and typed and typed.replace(" ", "") != str(shown).replace(" ", ""):
-        source += f" ({typed})"
+    typed = case.given.get(key)
+    if isinstance(typed, str) and not _plain(typed).endswith(_plain(shown.unit)):
+        source += f"; given as {typed}"
     return [name, Tex(symbol), shown.number, shown.unit, status, source]
+
+
+def _plain(unit: str) -> str:
+    """Return a unit as typed or printed in one spelling, to tell whether it was converted."""
+    return re.sub(r"[\s^*·]", "", unit.translate(str.maketrans("²³⁴", "234")))
 
 
 def truck_table(calculation: Calculation) -> Block:
@@ -339,7 +354,7 @@ def member_forces_table(calculation: Calculation) -> Block:
     rows: list[list[Inline]] = []
     for name, symbol, value, quantity, check in values:
         shown = printed(value, quantity, system)
-        verdict = ""
+        verdict = "no resistance given" if check else ""
         if check in resistances:
             ratio = resistances[check]
             verdict = f"{rounded(ratio, 3)} of the resistance: {_verdict(ratio)}"

@@ -369,7 +369,7 @@ class Steps(Block):
             rows += (
                 f'<div class="step" id="{step.label}"><div>{html.escape(step.name)}{source}</div>'
                 f'<div class="math display">\\[{html.escape(step.tex)}\\]</div>'
-                f'<div class="number" data-count="Equation"></div></div>'
+                f'<span class="number" data-count="Equation"></span></div>'
             )
         return f'<div class="steps">{rows}</div>'
 

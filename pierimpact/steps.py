@@ -50,16 +50,13 @@ class _Writer:
         source : str, optional
             Where the formula is from.
         """
+        symbol, formula_in_symbols = self.values[result].symbol, self._with_symbols(formula)
         lines = [f"{self._with_values(formula, units)} = {self._in_tex(result, units=True)}"]
-        if "<" in formula:
-            lines.insert(0, self._with_symbols(formula))
-        return Equation(
-            label=f"eq-{result}",
-            name=name,
-            symbol=self.values[result].symbol,
-            lines=lines,
-            source=source,
-        )
+        if formula_in_symbols == formula:  # nothing to put in
+            lines = [formula]
+        elif re.sub(r"\\,| ", "", formula_in_symbols) != symbol.replace(" ", ""):
+            lines.insert(0, formula_in_symbols)
+        return Equation(label=f"eq-{result}", name=name, symbol=symbol, lines=lines, source=source)
 
     def _with_symbols(self, formula: str) -> str:
         formula = formula.replace("<x>", r"\,")
@@ -68,7 +65,7 @@ class _Writer:
     def _with_values(self, formula: str, units: bool) -> str:
         def value(match: re.Match[str]) -> str:
             text, power = self._in_tex(match[1], units=units), match[2]
-            return f"({text}){power}" if power and not text.startswith("(") else text + power
+            return f"({text}){power}" if power and units else text + power
 
         return re.sub(r"<(\w+)>(\^?)", value, formula.replace("<x>", r"\times"))
 
@@ -78,16 +75,20 @@ class _Writer:
         if units:
             return in_tex(shown)
         text = number_in_tex(shown)
-        return f"({text})" if text.startswith("-") else text
+        return f"({text})" if re.search("^-|times", text) else text
 
 
 def _values(calculation: Calculation) -> dict[str, _Value]:
     column, struck, pier = calculation.case.column, calculation.struck, calculation.pier
     section, forces = column.section, struck.unit_forces
-    strength = calculation.case.inputs.concrete_strength or 0.0
+    concrete_strength = calculation.case.inputs.concrete_strength or 0.0
     coefficients = struck.shape_coefficients[0]
     square = polynomial.polyint(polynomial.polymul(coefficients, coefficients))
     below = column.height * float(polynomial.polyval(struck.impact_height / column.height, square))
+    moments = forces.base_moment, forces.impact_moment
+    squares = moments[0] ** 2 + moments[0] * moments[1] + moments[1] ** 2
+    flexure_below = struck.impact_height * squares / (3.0 * column.flexural_rigidity)
+    freed, own = _freed_deflections(calculation)
     sizes = (
         {"D": _Value("D", section.diameter, "section length", True)}
         if isinstance(section, CircularSection)
@@ -100,17 +101,12 @@ def _values(calculation: Calculation) -> dict[str, _Value]:
         "A": _Value("A", section.area, "area"),
         "I": _Value("I", section.second_moment, "second moment"),
         "kappa": _Value(r"\kappa", section.shear_coefficient, "ratio", True),
-        "fc": _Value(
-            r"f_\mathrm{c}'",
-            (calculation.case.inputs.concrete_strength or 0.0) / 1e6,
-            "ratio",
-            True,
-        ),
+        "fc": _Value(r"f_\mathrm{c}'", concrete_strength / 1e6, "ratio", True),
         "E": _Value("E", column.elastic_modulus, "modulus", True),
         "nu": _Value(r"\nu", column.poisson_ratio, "ratio", True),
         "G": _Value("G", column.shear_modulus, "modulus"),
         "EI": _Value("EI", column.flexural_rigidity, "flexural rigidity"),
-        "GA": _Value(r"\kappa G A", column.shear_rigidity, "shear rigidity"),
+        "GA": _Value(r"\kappa GA", column.shear_rigidity, "shear rigidity"),
         "rho": _Value(r"\rho", column.density, "density", True),
         "m": _Value(r"\bar m", column.mass_per_length, "mass per length"),
         "H": _Value("H", column.height, "length", True),
@@ -121,7 +117,12 @@ def _values(calculation: Calculation) -> dict[str, _Value]:
         "Mb": _Value(r"M_\mathrm{b}", forces.base_moment, "length"),
         "Mn": _Value(r"M_\mathrm{n}", forces.impact_moment, "length"),
         "Mt": _Value(r"M_\mathrm{t}", forces.top_moment, "length"),
-        "xf": _Value(r"x_\mathrm{f}", struck.flexural_deflection, "flexibility"),
+        "freed": _Value(r"\delta_\mathrm{n}", freed, "flexibility"),
+        "own": _Value(r"\delta_\mathrm{e}", own, "flexibility"),
+        "xf_below": _Value(r"x_\mathrm{f,b}", flexure_below, "flexibility"),
+        "xf_above": _Value(
+            r"x_\mathrm{f,t}", struck.flexural_deflection - flexure_below, "flexibility"
+        ),
         "xs": _Value(r"x_\mathrm{s}", struck.shear_deflection, "flexibility"),
         "xn": _Value(r"x(z_\mathrm{n})", struck.impact_deflection, "flexibility"),
         "kp": _Value(r"k_\mathrm{p}", pier.stiffness, "stiffness"),
@@ -138,6 +139,15 @@ def _values(calculation: Calculation) -> dict[str, _Value]:
         "zeta": _Value(r"\zeta", pier.damping_ratio, "ratio", True),
         "cp": _Value(r"c_\mathrm{p}", pier.damping, "damping"),
     }
+
+
+def _freed_deflections(calculation: Calculation) -> tuple[float, float]:
+    """Return the deflections of a freed end as in `_TOP`; their ratio is its force [m/N]."""
+    column, forces = calculation.case.column, calculation.struck.unit_forces
+    bending = 12.0 if column.base == column.top == "fixed" else 3.0
+    own = column.height**3 / (bending * column.flexural_rigidity)
+    own += column.height / column.shear_rigidity
+    return own * (forces.base_force if column.base == "pinned" else forces.top_force), own
 
 
 def section_steps(calculation: Calculation) -> Steps:
@@ -171,67 +181,87 @@ def unit_force_steps(calculation: Calculation) -> Steps:
     """Return support forces and moments under a unit force at the impact height.
 
     Force and moment at the top follow from what the top is, or from what cannot move; the
-    others from equilibrium. Derived here by integrating M/EI and V/κGA from the base.
+    others from equilibrium. Derived here by integrating M/EI and V/κGA over the column.
     """
-    step = _Writer(calculation).step
-    column = calculation.case.column
-    top_force, force_source = _TOP_FORCES[column.base, column.top]
-    top_moment, moment_source = _TOP_MOMENTS[column.base, column.top]
+    write, column = _Writer(calculation), calculation.case.column
+    top = [
+        write.step(name, result, formula, units=False, source=source)
+        for name, result, formula, source in _TOP[column.base, column.top]
+    ]
+    rest = [
+        ("Force at the base", "Rb", "1 - <Rt>"),
+        ("Moment at the base", "Mb", "<Mt> + <Rt> <x> <H> - <z>"),
+        ("Moment at the impact", "Mn", "<Mt> + <Rt> <x> <y>"),
+    ]
     return Steps(
         [
-            step("Force at the top", "Rt", top_force, units=False, source=force_source),
-            step("Moment at the top", "Mt", top_moment, units=False, source=moment_source),
-            step("Force at the base", "Rb", "1 - <Rt>", units=False, source="equilibrium"),
-            step(
-                "Moment at the base",
-                "Mb",
-                "<Mt> + <Rt> <x> <H> - <z>",
-                units=False,
-                source="equilibrium",
-            ),
-            step(
-                "Moment at the impact",
-                "Mn",
-                "<Mt> + <Rt> <x> <y>",
-                units=False,
-                source="equilibrium",
-            ),
+            *top,
+            *(write.step(*step, units=False, source="equilibrium") for step in rest),
         ]
     )
 
 
-# By base and top: what the force and the moment at the top are, and why.
-_TOP_FORCES = {
-    ("fixed", "free"): ("0", "free top"),
-    ("free", "fixed"): ("1", "equilibrium: nothing holds the base"),
-    ("pinned", "pinned"): (r"\frac{<z>}{<H>}", "equilibrium"),
-    ("fixed", "pinned"): (
-        r"\frac{\dfrac{<z>^2 \, (3 <x> <H> - <z>)}{6 <x> <EI>} + \dfrac{<z>}{<GA>}}"
-        r"{\dfrac{<H>^3}{3 <x> <EI>} + \dfrac{<H>}{<GA>}}",
-        "the top stays in place",
-    ),
-    ("pinned", "fixed"): (
-        r"1 - \frac{\dfrac{<y>^2 \, (2 <x> <H> + <z>)}{6 <x> <EI>} + \dfrac{<y>}{<GA>}}"
-        r"{\dfrac{<H>^3}{3 <x> <EI>} + \dfrac{<H>}{<GA>}}",
-        "the base stays in place",
-    ),
-    ("fixed", "fixed"): (
-        r"\frac{\dfrac{<z>^2 \, (3 <x> <H> - 2 <x> <z>)}{12 <x> <EI>} + \dfrac{<z>}{<GA>}}"
-        r"{\dfrac{<H>^3}{12 <x> <EI>} + \dfrac{<H>}{<GA>}}",
-        "the top neither moves nor turns",
-    ),
-}
-_NO_MOMENT_AT_BASE = ("<z> - <Rt> <x> <H>", "no moment at the base")
-_TOP_MOMENTS = {
-    ("fixed", "free"): ("0", "free top"),
-    ("free", "fixed"): _NO_MOMENT_AT_BASE,
-    ("pinned", "pinned"): ("0", "pinned top"),
-    ("fixed", "pinned"): ("0", "pinned top"),
-    ("pinned", "fixed"): _NO_MOMENT_AT_BASE,
-    ("fixed", "fixed"): (
-        r"\frac{<z>^2}{2 <x> <H>} - \frac{<Rt> <x> <H>}{2}",
-        "the top does not turn",
-    ),
+# Deflection of the freed end under the unit force, and under a unit force of its own.
+_FREED = "with the end freed, under the unit force at the impact"
+_FREED_OWN = "with the end freed, under a unit force there"
+_OWN = r"\frac{<H>^3}{3 <x> <EI>} + \frac{<H>}{<GA>}"
+# By base and top: the steps to force and moment at the top.
+_TOP = {
+    ("fixed", "free"): [
+        ("Force at the top", "Rt", "0", "free top"),
+        ("Moment at the top", "Mt", "0", "free top"),
+    ],
+    ("free", "fixed"): [
+        ("Force at the top", "Rt", "1", "nothing holds the base"),
+        ("Moment at the top", "Mt", "<z> - <Rt> <x> <H>", "no moment at the base"),
+    ],
+    ("pinned", "pinned"): [
+        ("Force at the top", "Rt", r"\frac{<z>}{<H>}", "equilibrium"),
+        ("Moment at the top", "Mt", "0", "pinned top"),
+    ],
+    ("fixed", "pinned"): [
+        (
+            "Deflection of the top",
+            "freed",
+            r"\frac{<z>^2 \, (3 <x> <H> - <z>)}{6 <x> <EI>} + \frac{<z>}{<GA>}",
+            _FREED,
+        ),
+        ("Deflection of the top", "own", _OWN, _FREED_OWN),
+        ("Force at the top", "Rt", r"\frac{<freed>}{<own>}", "the top stays in place"),
+        ("Moment at the top", "Mt", "0", "pinned top"),
+    ],
+    ("pinned", "fixed"): [
+        (
+            "Deflection of the base",
+            "freed",
+            r"\frac{<y>^2 \, (2 <x> <H> + <z>)}{6 <x> <EI>} + \frac{<y>}{<GA>}",
+            _FREED,
+        ),
+        ("Deflection of the base", "own", _OWN, _FREED_OWN),
+        ("Force at the top", "Rt", r"1 - \frac{<freed>}{<own>}", "the base stays in place"),
+        ("Moment at the top", "Mt", "<z> - <Rt> <x> <H>", "no moment at the base"),
+    ],
+    ("fixed", "fixed"): [
+        (
+            "Deflection of the top",
+            "freed",
+            r"\frac{<z>^2 \, (3 <x> <H> - 2 <x> <z>)}{12 <x> <EI>} + \frac{<z>}{<GA>}",
+            _FREED + ", but not to turn",
+        ),
+        (
+            "Deflection of the top",
+            "own",
+            r"\frac{<H>^3}{12 <x> <EI>} + \frac{<H>}{<GA>}",
+            _FREED_OWN + ", but not to turn",
+        ),
+        ("Force at the top", "Rt", r"\frac{<freed>}{<own>}", "the top stays in place"),
+        (
+            "Moment at the top",
+            "Mt",
+            r"\frac{<z>^2}{2 <x> <H>} - \frac{<Rt> <x> <H>}{2}",
+            "the top does not turn",
+        ),
+    ],
 }
 
 
@@ -241,10 +271,16 @@ def stiffness_steps(calculation: Calculation) -> Steps:
     return Steps(
         [
             step(
-                "Deflection by flexure",
-                "xf",
-                r"\frac{<z> \left( <Mb>^2 + <Mb> <x> <Mn> + <Mn>^2 \right) + <y> \left( <Mn>^2 + "
-                r"<Mn> <x> <Mt> + <Mt>^2 \right)}{3 <x> <EI>}",
+                "Deflection by flexure below the impact",
+                "xf_below",
+                r"\frac{<z> \left( <Mb>^2 + <Mb> <x> <Mn> + <Mn>^2 \right)}{3 <x> <EI>}",
+                units=False,
+                source="integral of M²/EI",
+            ),
+            step(
+                "Deflection by flexure above the impact",
+                "xf_above",
+                r"\frac{<y> \left( <Mn>^2 + <Mn> <x> <Mt> + <Mt>^2 \right)}{3 <x> <EI>}",
                 units=False,
                 source="integral of M²/EI",
             ),
@@ -255,7 +291,7 @@ def stiffness_steps(calculation: Calculation) -> Steps:
                 units=False,
                 source="integral of V²/κGA",
             ),
-            step("Deflection at the impact", "xn", "<xf> + <xs>"),
+            step("Deflection at the impact", "xn", "<xf_below> + <xf_above> + <xs>", units=False),
             step("Stiffness", "kp", r"\frac{1}{<xn>}", source="Eq. 3 of the source paper"),
         ]
     )
@@ -342,6 +378,6 @@ def mass_steps(calculation: Calculation) -> Steps:
             ),
             step("Equivalent mass", "mp", "<m> <x> <phi2>", source="Eq. 1 of the source paper"),
             step("Frequency", "fp", r"\frac{1}{2 \pi} \sqrt{\frac{<kp_mass>}{<mp>}}"),
-            step("Damping coefficient", "cp", r"2 \, <zeta> \sqrt{<kp_mass> <x> <mp>}"),
+            step("Damping coefficient", "cp", r"2 <x> <zeta> \sqrt{<kp_mass> <x> <mp>}"),
         ]
     )
