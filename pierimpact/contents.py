@@ -87,8 +87,8 @@ def title_block(calculation: Calculation) -> Block:
         subtitle="Calculation sheet. Coupled mass-spring-damper (CMSD) model of the collision",
         entries={
             "Project": inputs.project,
-            "Job number": inputs.job_number,
             "Element": inputs.element,
+            "Job number": inputs.job_number,
             "Revision": inputs.revision,
             "Prepared by": inputs.prepared_by,
             "Checked by": inputs.checked_by,
@@ -343,11 +343,11 @@ def member_forces_table(calculation: Calculation) -> Block:
     resistances = dict(_utilisations(calculation))
     shear, moment = forces.largest_shear, forces.largest_moment
     values = [
-        ("Force on the base", r"R R_\mathrm{b}", forces.base_force, "force", ""),
-        ("Force on the top", r"R R_\mathrm{t}", forces.top_force, "force", ""),
-        ("Moment at the base", r"R M_\mathrm{b}", forces.base_moment, "moment", ""),
-        ("Moment at the impact", r"R M_\mathrm{n}", forces.impact_moment, "moment", ""),
-        ("Moment at the top", r"R M_\mathrm{t}", forces.top_moment, "moment", ""),
+        ("Force on the base", r"R \cdot R_\mathrm{b}", forces.base_force, "force", ""),
+        ("Force on the top", r"R \cdot R_\mathrm{t}", forces.top_force, "force", ""),
+        ("Moment at the base", r"R \cdot M_\mathrm{b}", forces.base_moment, "moment", ""),
+        ("Moment at the impact", r"R \cdot M_\mathrm{n}", forces.impact_moment, "moment", ""),
+        ("Moment at the top", r"R \cdot M_\mathrm{t}", forces.top_moment, "moment", ""),
         ("Largest shear", r"V_\mathrm{max}", abs(shear.value), "force", "shear"),
         ("Largest moment", r"M_\mathrm{max}", abs(moment.value), "moment", "moment"),
     ]
@@ -428,5 +428,6 @@ def _error_words(error: float, whole: str) -> str:
 
 
 def _name(key: str) -> str:
-    """Return the name of an input as it reads away from the table."""
-    return key.replace("_", " ")
+    """Return the name of an input as it reads within a sentence."""
+    name = _INPUTS[key][0]
+    return name if name.startswith("Poisson") else name[0].lower() + name[1:]

@@ -34,7 +34,7 @@ def templates_folder() -> Path:
     return installed if installed.is_dir() else _PACKAGE.parent / "templates"
 
 
-class _SheetExporter(TemplateExporter):  # type: ignore[misc]
+class _SheetExporter(TemplateExporter):
     """What the two exporters share: the outputs and prose of a notebook as pieces of a sheet."""
 
     piece_mime: str
@@ -49,8 +49,7 @@ class _SheetExporter(TemplateExporter):  # type: ignore[misc]
         self, nb: NotebookNode, resources: Any = None, **kw: Any
     ) -> tuple[Any, dict[str, Any]]:
         """Return the notebook in this format, and nbconvert's resources."""
-        resources = self._init_resources(resources)
-        resources["sheet"] = self._sheet(nb)
+        resources = {**(resources or {}), "sheet": self._sheet(nb)}
         return super().from_notebook_node(nb, resources, **kw)
 
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
@@ -139,7 +138,7 @@ class SheetHTMLExporter(_SheetExporter):
 
 
 def _numbered(page: str) -> str:
-    """Number equations, figures and tables, and what refers to them, in the order they come."""
+    """Return the page with equations, figures and tables numbered in the order they come."""
     counts: Counter[str] = Counter()
     numbers: dict[str, str] = {}
     anchor = ""
@@ -184,7 +183,7 @@ class SheetPDFExporter(_SheetExporter):
 
     def _create_environment(self) -> Environment:
         # Typst uses braces and hashes itself.
-        environment = super()._create_environment()
+        environment: Environment = super()._create_environment()  # type: ignore[no-untyped-call]
         environment.block_start_string, environment.block_end_string = "((*", "*))"
         environment.variable_start_string, environment.variable_end_string = "((=", "=))"
         environment.comment_start_string, environment.comment_end_string = "((--", "--))"
@@ -193,11 +192,13 @@ class SheetPDFExporter(_SheetExporter):
 
     def from_notebook_node(
         self, nb: NotebookNode, resources: Any = None, **kw: Any
-    ) -> tuple[bytes, dict[str, Any]]:
+    ) -> tuple[Any, dict[str, Any]]:
         """Return the notebook as a PDF, and nbconvert's resources."""
         source, resources = super().from_notebook_node(nb, resources, **kw)
         resources["output_extension"] = ".pdf"
-        return compile_typst(source, resources["sheet"]["date"]), resources
+        pdf, missing = compile_typst(source, resources["sheet"]["date"])
+        resources["warnings"] = [f"the PDF lacks a character: {missing}"] if missing else []
+        return pdf, resources
 
     def _formulas(self, text: str) -> list[str]:
         return [
@@ -217,26 +218,40 @@ def _typst_text(literal: str) -> str:
     return re.sub(r"\\(.)", r"\1", literal[1:-1])
 
 
-def compile_typst(source: str, date: str) -> bytes:
-    """Return the PDF of a Typst document; the same bytes for the same source and date."""
-    compiled: Callable[..., Any] = typst.compile
-    options: dict[str, Any] = {
-        "font_paths": [_font_folder()],
-        "ignore_system_fonts": True,
-        "timestamp": datetime.datetime.fromisoformat(f"{date}T00:00:00+00:00"),
-        "pdf_standards": ["a-2a", "ua-1"],
-    }
-    try:
-        return bytes(compiled(source.encode(), **options))
-    except typst.TypstError as error:
-        if "could not be displayed" not in error.message:
-            raise
-    # A script that the fonts at hand lack: whoever writes in it has a font for it.
-    options["ignore_system_fonts"] = False
-    try:
-        return bytes(compiled(source.encode(), **options))
-    except typst.TypstError:
-        return bytes(compiled(source.encode(), **options | {"pdf_standards": []}))
+def compile_typst(source: str, date: str) -> tuple[bytes, str]:
+    """Return the PDF of a Typst document, the same bytes for the same source and date.
+
+    Where the text is in a script that the fonts at hand lack, such as Chinese, the fonts of the
+    system are searched: whoever writes in it has one.
+
+    Parameters
+    ----------
+    source : str
+        The document.
+    date : str
+        Its date, as 2026-01-31.
+
+    Returns
+    -------
+    pdf : bytes
+        The PDF.
+    missing : str
+        What is wrong with it: a text that no font can show. Empty if nothing is.
+    """
+    at_hand = {"font_paths": [_font_folder()], "ignore_system_fonts": True}
+    system = {"sys_inputs": {"fallback": "yes"}}
+    strict = {"pdf_standards": ["a-2a", "ua-1"]}
+    timestamp = datetime.datetime.fromisoformat(f"{date}T00:00:00+00:00")
+    compiled: Callable[..., bytes] = typst.compile
+    missing = ""
+    for options in (at_hand | strict, system | strict, system):
+        try:
+            return compiled(source.encode(), timestamp=timestamp, **options), missing
+        except typst.TypstError as error:
+            if "could not be displayed" not in error.message:
+                raise
+            missing = error.message
+    raise AssertionError("without a PDF standard, a missing character is no error")
 
 
 def _font_folder() -> Path:

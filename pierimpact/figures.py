@@ -60,13 +60,14 @@ def _mark_peaks(axes: Any, history: CollisionHistory, system: str) -> None:
             continue
         x = peak.time / unit_size("time", system)
         y = peak.reaction / unit_size("force", system)
+        late = x > 0.7 * axes.get_xlim()[1]  # no room on the right
         axes.plot([x], [y], "o", color=VERMILION, markersize=4.5, zorder=5)
         axes.annotate(
             f"{name} peak {printed(peak.reaction, 'force', system)}",
             (x, y),
-            xytext=(6, 4),
+            xytext=(-6, 5) if late else (6, 5),
             textcoords="offset points",
-            color="black",
+            horizontalalignment="right" if late else "left",
         )
 
 

@@ -17,6 +17,9 @@ from pierimpact.sheet import Column, Equation, Steps, Table, Tex, in_tex, number
 from pierimpact.units import printed, unit_of
 
 
+_LONG = 90  # LaTeX with values of more characters than this leaves no room for the result
+
+
 class _Value(NamedTuple):
     symbol: str
     value: float
@@ -51,7 +54,8 @@ class _Writer:
             Where the formula is from.
         """
         symbol, formula_in_symbols = self.values[result].symbol, self._with_symbols(formula)
-        lines = [f"{self._with_values(formula, units)} = {self._in_tex(result, units=True)}"]
+        values, shown = self._with_values(formula, units), self._in_tex(result, units=True)
+        lines = [values, shown] if len(values) > _LONG else [f"{values} = {shown}"]
         if formula_in_symbols == formula:  # nothing to put in
             lines = [formula]
         elif re.sub(r"\\,| ", "", formula_in_symbols) != symbol.replace(" ", ""):
@@ -65,7 +69,8 @@ class _Writer:
     def _with_values(self, formula: str, units: bool) -> str:
         def value(match: re.Match[str]) -> str:
             text, power = self._in_tex(match[1], units=units), match[2]
-            return f"({text}){power}" if power and units else text + power
+            grouped = power and (units or "times" in text)
+            return f"({text}){power}" if grouped else text + power
 
         return re.sub(r"<(\w+)>(\^?)", value, formula.replace("<x>", r"\times"))
 
@@ -75,7 +80,7 @@ class _Writer:
         if units:
             return in_tex(shown)
         text = number_in_tex(shown)
-        return f"({text})" if re.search("^-|times", text) else text
+        return f"({text})" if text.startswith("-") else text
 
 
 def _values(calculation: Calculation) -> dict[str, _Value]:
@@ -100,7 +105,7 @@ def _values(calculation: Calculation) -> dict[str, _Value]:
     return sizes | {
         "A": _Value("A", section.area, "area"),
         "I": _Value("I", section.second_moment, "second moment"),
-        "kappa": _Value(r"\kappa", section.shear_coefficient, "ratio", True),
+        "kappa": _Value(r"\kappa", section.shear_coefficient, "share", True),
         "fc": _Value(r"f_\mathrm{c}'", concrete_strength / 1e6, "ratio", True),
         "E": _Value("E", column.elastic_modulus, "modulus", True),
         "nu": _Value(r"\nu", column.poisson_ratio, "ratio", True),
