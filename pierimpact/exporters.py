@@ -236,7 +236,7 @@ def compile_typst(source: str, date: str) -> tuple[bytes, str]:
     pdf : bytes
         The PDF.
     missing : str
-        What is wrong with it: a text that no font can show. Empty if nothing is.
+        A text that no font can show; empty if there is none.
     """
     at_hand = {"font_paths": [_font_folder()], "ignore_system_fonts": True}
     system = {"sys_inputs": {"fallback": "yes"}}
@@ -250,7 +250,7 @@ def compile_typst(source: str, date: str) -> tuple[bytes, str]:
         except typst.TypstError as error:
             if "could not be displayed" not in error.message:
                 raise
-            missing = error.message
+            missing = error.message.partition("the text ")[2]
     raise AssertionError("without a PDF standard, a missing character is no error")
 
 

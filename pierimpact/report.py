@@ -81,7 +81,8 @@ def write_report(
         for file in files.values():
             file.replace(output_dir / file.name)
     failed.unlink(missing_ok=True)
-    return Report(*(output_dir / file.name for file in files.values()), warnings)
+    notebook_path, html, pdf = (output_dir / file.name for file in files.values())
+    return Report(notebook_path, html, pdf, warnings)
 
 
 def _parameters(case_path: Path) -> dict[str, Any]:

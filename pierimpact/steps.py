@@ -16,7 +16,6 @@ from pierimpact.sections import CircularSection
 from pierimpact.sheet import Column, Equation, Steps, Table, Tex, in_tex, number_in_tex
 from pierimpact.units import printed, unit_of
 
-
 _LONG = 90  # LaTeX with values of more characters than this leaves no room for the result
 
 
