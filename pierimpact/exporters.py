@@ -1,0 +1,262 @@
+"""From an executed notebook to one HTML file or a PDF, without its code.
+
+Both are nbconvert exporters: `jupyter nbconvert --to pierimpact_pdf NOTEBOOK` works too. One call
+of pandoc turns the notebook's prose and all mathematics into HTML with MathML, or into Typst.
+"""
+
+import datetime
+import html
+import importlib.util
+import re
+import subprocess
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import typst
+from jinja2 import Environment
+from nbconvert.exporters.templateexporter import TemplateExporter
+from nbformat import NotebookNode
+from pypandoc import get_pandoc_path
+from traitlets import default
+
+from pierimpact.sheet import SHEET_MIME, TYPST_MIME, typst_string
+
+_PACKAGE = Path(__file__).parent
+_MARKDOWN = "markdown-citations-yaml_metadata_block"
+_CUT = "pierimpactcutshere"  # a paragraph between two pieces in what pandoc is given
+
+
+def templates_folder() -> Path:
+    """Return the folder of the templates: in an installed package, or beside it in a checkout."""
+    installed = _PACKAGE / "templates"
+    return installed if installed.is_dir() else _PACKAGE.parent / "templates"
+
+
+class _SheetExporter(TemplateExporter):
+    """What the two exporters share: the outputs and prose of a notebook as pieces of a sheet."""
+
+    piece_mime: str
+    pandoc_options: tuple[str, ...]
+    math: re.Pattern[str]
+
+    @default("extra_template_basedirs")
+    def _default_extra_template_basedirs(self) -> list[str]:
+        return [str(templates_folder())]
+
+    def from_notebook_node(
+        self, nb: NotebookNode, resources: Any = None, **kw: Any
+    ) -> tuple[Any, dict[str, Any]]:
+        """Return the notebook in this format, and nbconvert's resources."""
+        resources = {**(resources or {}), "sheet": self._sheet(nb)}
+        return super().from_notebook_node(nb, resources, **kw)
+
+    def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
+        """Return what the template needs: the pieces, and what the title block says."""
+        sheet: dict[str, Any] = {
+            "title": "Notebook",
+            "date": "2000-01-01",
+            "paper": "a4",
+            "entries": {},
+        }
+        pieces = []
+        for cell in nb.cells:
+            if cell.cell_type == "markdown":
+                pieces.append(("markdown", cell.source))
+            for output in cell.get("outputs", []):
+                data = output.get("data", {})
+                sheet |= data.get(SHEET_MIME, {})
+                if self.piece_mime in data:
+                    pieces.append(("ready", data[self.piece_mime]))
+                elif "text/markdown" in data:
+                    pieces.append(("markdown", data["text/markdown"]))
+        return sheet | {"pieces": self._converted(pieces)}
+
+    def _converted(self, pieces: list[tuple[str, str]]) -> list[str]:
+        """Return the pieces with prose and mathematics converted, by one call of pandoc."""
+        prose = [text for kind, text in pieces if kind == "markdown"]
+        ready = [text for kind, text in pieces if kind == "ready"]
+        formulas = [formula for text in ready for formula in self._formulas(text)]
+        converted = self._pandoc([*prose, *formulas])
+        prose_out, formulas_out = iter(converted[: len(prose)]), iter(converted[len(prose) :])
+        return [
+            next(prose_out)
+            if kind == "markdown"
+            else self.math.sub(lambda match: self._formula(match, next(formulas_out)), text)
+            for kind, text in pieces
+        ]
+
+    def _formulas(self, text: str) -> list[str]:
+        """Return the formulas of a ready piece as pandoc's Markdown."""
+        raise NotImplementedError
+
+    def _formula(self, match: re.Match[str], converted: str) -> str:
+        """Return what a formula is replaced by."""
+        raise NotImplementedError
+
+    def _pandoc(self, pieces: list[str]) -> list[str]:
+        done = subprocess.run(
+            [get_pandoc_path(), f"--from={_MARKDOWN}", "--fail-if-warnings", *self.pandoc_options],
+            input=f"\n\n{_CUT}\n\n".join(pieces),
+            capture_output=True,
+            encoding="utf-8",
+        )
+        if done.returncode != 0:
+            raise RuntimeError(f"pandoc: {done.stderr.strip()}")
+        return [piece.strip() for piece in re.split(rf"(?:<p>)?{_CUT}(?:</p>)?", done.stdout)]
+
+
+class SheetHTMLExporter(_SheetExporter):
+    """One self-contained HTML file: figures inside, mathematics as MathML, no script."""
+
+    export_from_notebook = "pierimpact: calculation sheet, HTML"
+    file_extension = ".html"
+    output_mimetype = "text/html"
+    template_name = "pierimpact-html"
+    piece_mime = "text/html"
+    pandoc_options = ("--to=html5", "--mathml", "--number-sections", "--shift-heading-level-by=1")
+    math = re.compile(r'<(span|div) class="math( display)?">\\[(\[](.*?)\\[)\]]</\1>', re.DOTALL)
+
+    def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
+        sheet = super()._sheet(nb)
+        return sheet | {"pieces": _numbered("\n".join(sheet["pieces"]))}
+
+    def _formulas(self, text: str) -> list[str]:
+        marks = {"": "$", " display": "$$"}
+        return [
+            f"{mark}{html.unescape(formula)}{mark}"
+            for mark, formula in (
+                (marks[match[2] or ""], match[3]) for match in self.math.finditer(text)
+            )
+        ]
+
+    def _formula(self, match: re.Match[str], converted: str) -> str:
+        # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
+        bare = re.sub(r"<annotation.*?</annotation>", "", converted, flags=re.DOTALL)
+        return bare.removeprefix("<p>").removesuffix("</p>")
+
+
+def _numbered(page: str) -> str:
+    """Return the page with equations, figures and tables numbered in the order they come."""
+    counts: Counter[str] = Counter()
+    numbers: dict[str, str] = {}
+    anchor = ""
+
+    def count(match: re.Match[str]) -> str:
+        nonlocal anchor
+        if match[1]:
+            anchor = match[1]
+            return match[0]
+        kind = match[2]
+        counts[kind] += 1
+        number = f"({counts[kind]})" if kind == "Equation" else str(counts[kind])
+        numbers[anchor] = number
+        words = number if kind == "Equation" else f"{kind}&nbsp;{number}."
+        return f'<span class="number">{words}</span>'
+
+    page = re.sub(
+        r'<(?:table|figure|div)\b[^>]* id="([^"]+)"[^>]*>|'
+        r'<span class="number" data-count="(\w+)">.*?</span>',
+        count,
+        page,
+    )
+    return re.sub(
+        r'(<a href="#([^"]+)">)(.*?)</a>',
+        lambda link: (
+            f"{link[1]}{link[3]}&nbsp;{numbers[link[2]]}</a>" if link[2] in numbers else link[0]
+        ),
+        page,
+    )
+
+
+class SheetPDFExporter(_SheetExporter):
+    """A PDF by Typst, with vector figures, tagged, PDF/A-2a and PDF/UA-1."""
+
+    export_from_notebook = "pierimpact: calculation sheet, PDF"
+    file_extension = ".typ"  # of the template; what comes out is a PDF
+    output_mimetype = "application/pdf"
+    template_name = "pierimpact-pdf"
+    piece_mime = TYPST_MIME
+    pandoc_options = ("--to=typst",)
+    math = re.compile(r'#tex(block)?\(("(?:[^"\\]|\\.)*")\)')
+
+    def _create_environment(self) -> Environment:
+        # Typst uses braces and hashes itself.
+        environment: Environment = super()._create_environment()  # type: ignore[no-untyped-call]
+        environment.block_start_string, environment.block_end_string = "((*", "*))"
+        environment.variable_start_string, environment.variable_end_string = "((=", "=))"
+        environment.comment_start_string, environment.comment_end_string = "((--", "--))"
+        environment.filters["typst_string"] = typst_string
+        return environment
+
+    def from_notebook_node(
+        self, nb: NotebookNode, resources: Any = None, **kw: Any
+    ) -> tuple[Any, dict[str, Any]]:
+        """Return the notebook as a PDF, and nbconvert's resources."""
+        source, resources = super().from_notebook_node(nb, resources, **kw)
+        resources["output_extension"] = ".pdf"
+        pdf, missing = compile_typst(source, resources["sheet"]["date"])
+        resources["warnings"] = [f"the PDF lacks a character: {missing}"] if missing else []
+        return pdf, resources
+
+    def _formulas(self, text: str) -> list[str]:
+        return [
+            f"$${formula}$$" if block else f"${formula}$"
+            for block, formula in (
+                (match[1], _typst_text(match[2])) for match in self.math.finditer(text)
+            )
+        ]
+
+    def _formula(self, match: re.Match[str], converted: str) -> str:
+        kind = 'block: true, numbering: "(1)", ' if match[1] else ""
+        return f"#math.equation({kind}alt: {match[2]}, {converted}.body)"
+
+
+def _typst_text(literal: str) -> str:
+    """Return the text of a Typst string literal."""
+    return re.sub(r"\\(.)", r"\1", literal[1:-1])
+
+
+def compile_typst(source: str, date: str) -> tuple[bytes, str]:
+    """Return the PDF of a Typst document, the same bytes for the same source and date.
+
+    Where the text is in a script that the fonts at hand lack, such as Chinese, the fonts of the
+    system are searched: whoever writes in it has one.
+
+    Parameters
+    ----------
+    source : str
+        The document.
+    date : str
+        Its date, as 2026-01-31.
+
+    Returns
+    -------
+    pdf : bytes
+        The PDF.
+    missing : str
+        A text that no font can show; empty if there is none.
+    """
+    at_hand = {"font_paths": [_font_folder()], "ignore_system_fonts": True}
+    system = {"sys_inputs": {"fallback": "yes"}}
+    strict = {"pdf_standards": ["a-2a", "ua-1"]}
+    timestamp = datetime.datetime.fromisoformat(f"{date}T00:00:00+00:00")
+    compiled: Callable[..., bytes] = typst.compile
+    missing = ""
+    for options in (at_hand | strict, system | strict, system):
+        try:
+            return compiled(source.encode(), timestamp=timestamp, **options), missing
+        except typst.TypstError as error:
+            if "could not be displayed" not in error.message:
+                raise
+            missing = error.message.partition("the text ")[2]
+    raise AssertionError("without a PDF standard, a missing character is no error")
+
+
+def _font_folder() -> Path:
+    """Return the folder of matplotlib's fonts, for the scripts that Typst's own do not have."""
+    matplotlib = importlib.util.find_spec("matplotlib")
+    assert matplotlib is not None
+    assert matplotlib.origin is not None
+    return Path(matplotlib.origin).parent / "mpl-data" / "fonts" / "ttf"

@@ -1,0 +1,387 @@
+r"""The pier's values step by step: symbol, formula, substitution and result of each.
+
+A formula is LaTeX with names in angle brackets: `\frac{1}{<X>}` prints once with their symbols
+and once with their values. A product of them is written with `<x>`, a cross between values only.
+"""
+
+import re
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import polynomial
+from numpy.typing import NDArray
+
+from pierimpact.calculation import Calculation
+from pierimpact.sections import CircularSection
+from pierimpact.sheet import Column, Equation, Steps, Table, Tex, in_tex, number_in_tex
+from pierimpact.units import printed, unit_of
+
+_LONG = 90  # LaTeX with values of more characters than this leaves no room for the result
+
+
+class _Value(NamedTuple):
+    symbol: str
+    value: float
+    quantity: str
+    given: bool = False  # an input: prints without zeros that nobody typed
+
+
+class _Writer:
+    """Writes the steps of a calculation."""
+
+    def __init__(self, calculation: Calculation) -> None:
+        self.system = calculation.case.inputs.units
+        self.values = _values(calculation)
+
+    def step(
+        self, name: str, result: str, formula: str, *, units: bool = True, source: str = ""
+    ) -> Equation:
+        """Return the step that gives the value called `result`.
+
+        Parameters
+        ----------
+        name : str
+            What is calculated.
+        result : str
+            Name of the value.
+        formula : str
+            Formula with names in angle brackets.
+        units : bool, optional
+            Whether the values put in carry their units; if not, they are in the units of length
+            and force of the results.
+        source : str, optional
+            Where the formula is from.
+        """
+        symbol, formula_in_symbols = self.values[result].symbol, self._with_symbols(formula)
+        values, shown = self._with_values(formula, units), self._in_tex(result, units=True)
+        lines = [values, shown] if len(values) > _LONG else [f"{values} = {shown}"]
+        if formula_in_symbols == formula:  # nothing to put in
+            lines = [formula]
+        elif re.sub(r"\\,| ", "", formula_in_symbols) != symbol.replace(" ", ""):
+            lines.insert(0, formula_in_symbols)
+        return Equation(label=f"eq-{result}", name=name, symbol=symbol, lines=lines, source=source)
+
+    def _with_symbols(self, formula: str) -> str:
+        formula = formula.replace("<x>", r"\,")
+        return re.sub(r"<(\w+)>", lambda name: self.values[name[1]].symbol, formula)
+
+    def _with_values(self, formula: str, units: bool) -> str:
+        def value(match: re.Match[str]) -> str:
+            text, power = self._in_tex(match[1], units=units), match[2]
+            grouped = power and (units or "times" in text)
+            return f"({text}){power}" if grouped else text + power
+
+        return re.sub(r"<(\w+)>(\^?)", value, formula.replace("<x>", r"\times"))
+
+    def _in_tex(self, name: str, *, units: bool) -> str:
+        _, value, quantity, given = self.values[name]
+        shown = printed(value, quantity, self.system, given=given)
+        if units:
+            return in_tex(shown)
+        text = number_in_tex(shown)
+        return f"({text})" if text.startswith("-") else text
+
+
+def _values(calculation: Calculation) -> dict[str, _Value]:
+    column, struck, pier = calculation.case.column, calculation.struck, calculation.pier
+    section, forces = column.section, struck.unit_forces
+    concrete_strength = calculation.case.inputs.concrete_strength or 0.0
+    coefficients = struck.shape_coefficients[0]
+    square = polynomial.polyint(polynomial.polymul(coefficients, coefficients))
+    below = column.height * float(polynomial.polyval(struck.impact_height / column.height, square))
+    moments = forces.base_moment, forces.impact_moment
+    squares = moments[0] ** 2 + moments[0] * moments[1] + moments[1] ** 2
+    flexure_below = struck.impact_height * squares / (3.0 * column.flexural_rigidity)
+    freed, own = _freed_deflections(calculation)
+    sizes = (
+        {"D": _Value("D", section.diameter, "section length", True)}
+        if isinstance(section, CircularSection)
+        else {
+            "b": _Value("b", section.width, "section length", True),
+            "h": _Value("h", section.depth, "section length", True),
+        }
+    )
+    return sizes | {
+        "A": _Value("A", section.area, "area"),
+        "I": _Value("I", section.second_moment, "second moment"),
+        "kappa": _Value(r"\kappa", section.shear_coefficient, "share", True),
+        "fc": _Value(r"f_\mathrm{c}'", concrete_strength / 1e6, "ratio", True),
+        "E": _Value("E", column.elastic_modulus, "modulus", True),
+        "nu": _Value(r"\nu", column.poisson_ratio, "ratio", True),
+        "G": _Value("G", column.shear_modulus, "modulus"),
+        "EI": _Value("EI", column.flexural_rigidity, "flexural rigidity"),
+        "GA": _Value(r"\kappa GA", column.shear_rigidity, "shear rigidity"),
+        "rho": _Value(r"\rho", column.density, "density", True),
+        "m": _Value(r"\bar m", column.mass_per_length, "mass per length"),
+        "H": _Value("H", column.height, "length", True),
+        "z": _Value(r"z_\mathrm{n}", struck.impact_height, "length", True),
+        "y": _Value(r"(H - z_\mathrm{n})", column.height - struck.impact_height, "length", True),
+        "Rb": _Value(r"R_\mathrm{b}", forces.base_force, "share"),
+        "Rt": _Value(r"R_\mathrm{t}", forces.top_force, "share"),
+        "Mb": _Value(r"M_\mathrm{b}", forces.base_moment, "length"),
+        "Mn": _Value(r"M_\mathrm{n}", forces.impact_moment, "length"),
+        "Mt": _Value(r"M_\mathrm{t}", forces.top_moment, "length"),
+        "freed": _Value(r"\delta_\mathrm{n}", freed, "flexibility"),
+        "own": _Value(r"\delta_\mathrm{e}", own, "flexibility"),
+        "xf_below": _Value(r"x_\mathrm{f,b}", flexure_below, "flexibility"),
+        "xf_above": _Value(
+            r"x_\mathrm{f,t}", struck.flexural_deflection - flexure_below, "flexibility"
+        ),
+        "xs": _Value(r"x_\mathrm{s}", struck.shear_deflection, "flexibility"),
+        "xn": _Value(r"x(z_\mathrm{n})", struck.impact_deflection, "flexibility"),
+        "kp": _Value(r"k_\mathrm{p}", pier.stiffness, "stiffness"),
+        "kp_mass": _Value(r"k_\mathrm{p}", pier.stiffness, "mass stiffness"),
+        "phi2_below": _Value(r"\int_0^{z_\mathrm{n}} \varphi^2 \, \mathrm{d}z", below, "length"),
+        "phi2_above": _Value(
+            r"\int_{z_\mathrm{n}}^H \varphi^2 \, \mathrm{d}z",
+            struck.shape_integral - below,
+            "length",
+        ),
+        "phi2": _Value(r"\int_0^H \varphi^2 \, \mathrm{d}z", struck.shape_integral, "length"),
+        "mp": _Value(r"m_\mathrm{p}", pier.mass, "mass"),
+        "fp": _Value(r"f_\mathrm{p}", pier.frequency, "frequency"),
+        "zeta": _Value(r"\zeta", pier.damping_ratio, "ratio", True),
+        "cp": _Value(r"c_\mathrm{p}", pier.damping, "damping"),
+    }
+
+
+def _freed_deflections(calculation: Calculation) -> tuple[float, float]:
+    """Return the deflections of a freed end as in `_TOP`; their ratio is its force [m/N]."""
+    column, forces = calculation.case.column, calculation.struck.unit_forces
+    bending = 12.0 if column.base == column.top == "fixed" else 3.0
+    own = column.height**3 / (bending * column.flexural_rigidity)
+    own += column.height / column.shear_rigidity
+    return own * (forces.base_force if column.base == "pinned" else forces.top_force), own
+
+
+def section_steps(calculation: Calculation) -> Steps:
+    """Return area, rigidities and mass per length of the column."""
+    step = _Writer(calculation).step
+    circular = isinstance(calculation.case.column.section, CircularSection)
+    steps = [
+        step("Area", "A", r"\frac{\pi <D>^2}{4}" if circular else "<b> <x> <h>"),
+        step(
+            "Second moment of area",
+            "I",
+            r"\frac{\pi <D>^4}{64}" if circular else r"\frac{<b> <x> <h>^3}{12}",
+        ),
+        step("Flexural rigidity", "EI", "<E> <x> <I>"),
+        step("Shear modulus", "G", r"\frac{<E>}{2 \, (1 + <nu>)}"),
+        step("Shear rigidity", "GA", "<kappa> <x> <G> <x> <A>"),
+        step("Mass per length", "m", "<rho> <x> <A>"),
+    ]
+    if calculation.case.inputs.concrete_strength is not None:
+        modulus = step(
+            "Elastic modulus of the concrete, both in MPa",
+            "E",
+            r"4700 \sqrt{<fc>}\ \text{MPa}",
+            source="as in ACI 318, from memory; unverified: check against the standard",
+        )
+        steps.insert(0, modulus)
+    return Steps(steps)
+
+
+def unit_force_steps(calculation: Calculation) -> Steps:
+    """Return support forces and moments under a unit force at the impact height.
+
+    Force and moment at the top follow from what the top is, or from what cannot move; the
+    others from equilibrium. Derived here by integrating M/EI and V/κGA over the column.
+    """
+    write, column = _Writer(calculation), calculation.case.column
+    top = [
+        write.step(name, result, formula, units=False, source=source)
+        for name, result, formula, source in _TOP[column.base, column.top]
+    ]
+    rest = [
+        ("Force at the base", "Rb", "1 - <Rt>"),
+        ("Moment at the base", "Mb", "<Mt> + <Rt> <x> <H> - <z>"),
+        ("Moment at the impact", "Mn", "<Mt> + <Rt> <x> <y>"),
+    ]
+    return Steps(
+        [
+            *top,
+            *(write.step(*step, units=False, source="equilibrium") for step in rest),
+        ]
+    )
+
+
+# Deflection of the freed end under the unit force, and under a unit force of its own.
+_FREED = "with the end freed, under the unit force at the impact"
+_FREED_OWN = "with the end freed, under a unit force there"
+_OWN = r"\frac{<H>^3}{3 <x> <EI>} + \frac{<H>}{<GA>}"
+# By base and top: the steps to force and moment at the top.
+_TOP = {
+    ("fixed", "free"): [
+        ("Force at the top", "Rt", "0", "free top"),
+        ("Moment at the top", "Mt", "0", "free top"),
+    ],
+    ("free", "fixed"): [
+        ("Force at the top", "Rt", "1", "nothing holds the base"),
+        ("Moment at the top", "Mt", "<z> - <Rt> <x> <H>", "no moment at the base"),
+    ],
+    ("pinned", "pinned"): [
+        ("Force at the top", "Rt", r"\frac{<z>}{<H>}", "equilibrium"),
+        ("Moment at the top", "Mt", "0", "pinned top"),
+    ],
+    ("fixed", "pinned"): [
+        (
+            "Deflection of the top",
+            "freed",
+            r"\frac{<z>^2 \, (3 <x> <H> - <z>)}{6 <x> <EI>} + \frac{<z>}{<GA>}",
+            _FREED,
+        ),
+        ("Deflection of the top", "own", _OWN, _FREED_OWN),
+        ("Force at the top", "Rt", r"\frac{<freed>}{<own>}", "the top stays in place"),
+        ("Moment at the top", "Mt", "0", "pinned top"),
+    ],
+    ("pinned", "fixed"): [
+        (
+            "Deflection of the base",
+            "freed",
+            r"\frac{<y>^2 \, (2 <x> <H> + <z>)}{6 <x> <EI>} + \frac{<y>}{<GA>}",
+            _FREED,
+        ),
+        ("Deflection of the base", "own", _OWN, _FREED_OWN),
+        ("Force at the top", "Rt", r"1 - \frac{<freed>}{<own>}", "the base stays in place"),
+        ("Moment at the top", "Mt", "<z> - <Rt> <x> <H>", "no moment at the base"),
+    ],
+    ("fixed", "fixed"): [
+        (
+            "Deflection of the top",
+            "freed",
+            r"\frac{<z>^2 \, (3 <x> <H> - 2 <x> <z>)}{12 <x> <EI>} + \frac{<z>}{<GA>}",
+            _FREED + ", but not to turn",
+        ),
+        (
+            "Deflection of the top",
+            "own",
+            r"\frac{<H>^3}{12 <x> <EI>} + \frac{<H>}{<GA>}",
+            _FREED_OWN + ", but not to turn",
+        ),
+        ("Force at the top", "Rt", r"\frac{<freed>}{<own>}", "the top stays in place"),
+        (
+            "Moment at the top",
+            "Mt",
+            r"\frac{<z>^2}{2 <x> <H>} - \frac{<Rt> <x> <H>}{2}",
+            "the top does not turn",
+        ),
+    ],
+}
+
+
+def stiffness_steps(calculation: Calculation) -> Steps:
+    """Return the deflection under the unit force, of flexure and shear, and the stiffness."""
+    step = _Writer(calculation).step
+    return Steps(
+        [
+            step(
+                "Deflection by flexure below the impact",
+                "xf_below",
+                r"\frac{<z> \left( <Mb>^2 + <Mb> <x> <Mn> + <Mn>^2 \right)}{3 <x> <EI>}",
+                units=False,
+                source="integral of M²/EI",
+            ),
+            step(
+                "Deflection by flexure above the impact",
+                "xf_above",
+                r"\frac{<y> \left( <Mn>^2 + <Mn> <x> <Mt> + <Mt>^2 \right)}{3 <x> <EI>}",
+                units=False,
+                source="integral of M²/EI",
+            ),
+            step(
+                "Deflection by shear",
+                "xs",
+                r"\frac{<z> <x> <Rb>^2 + <y> <x> <Rt>^2}{<GA>}",
+                units=False,
+                source="integral of V²/κGA",
+            ),
+            step("Deflection at the impact", "xn", "<xf_below> + <xf_above> + <xs>", units=False),
+            step("Stiffness", "kp", r"\frac{1}{<xn>}", source="Eq. 3 of the source paper"),
+        ]
+    )
+
+
+def shape_steps(calculation: Calculation) -> Steps:
+    """Return the shape function below and above the impact, as polynomials."""
+    below, above = calculation.struck.shape_coefficients
+    return Steps(
+        [
+            Equation(
+                label="eq-shape-below",
+                name="Shape below the impact",
+                symbol=r"\varphi",
+                lines=[rf"{_polynomial(below)} \quad \text{{with }} s = z / H"],
+                source="Eq. 2 of the source paper",
+            ),
+            Equation(
+                label="eq-shape-above",
+                name="Shape above the impact",
+                symbol=r"\varphi",
+                lines=[rf"{_polynomial(above)} \quad \text{{with }} s = (H - z) / H"],
+                source="Eq. 2 of the source paper",
+            ),
+        ]
+    )
+
+
+def _polynomial(coefficients: NDArray[np.float64]) -> str:
+    """Return a polynomial in s as LaTeX, without the terms that are zero."""
+    text = ""
+    for power, coefficient in enumerate(coefficients.tolist()):
+        if abs(coefficient) > 1e-9 * np.max(np.abs(coefficients)):
+            sign = "-" if coefficient < 0.0 else "+" if text else ""
+            text += f"{sign} {number_in_tex(printed(abs(coefficient), 'share', 'SI'))}"
+            text += f" \\, s^{power} " if power > 1 else " \\, s " if power else " "
+    return text
+
+
+def shape_table(calculation: Calculation) -> Table:
+    """Return ordinates of the shape function, four equal intervals below and above the impact."""
+    struck, system = calculation.struck, calculation.case.inputs.units
+    height, impact = calculation.case.column.height, struck.impact_height
+    below, above = np.linspace(0.0, impact, 5), np.linspace(impact, height, 5)
+    simpson = np.array([1.0, 4.0, 2.0, 4.0, 1.0]) / 12.0
+    check = sum(
+        float((part[-1] - part[0]) * (simpson @ struck.shape(part) ** 2)) for part in (below, above)
+    )
+    rows = [
+        [
+            printed(z, "length", system).number,
+            printed(float(phi), "ordinate", system).number,
+            printed(float(phi) ** 2, "ordinate", system).number,
+        ]
+        for z, phi in ((z, struck.shape(z)) for z in (*below.tolist(), *above[1:].tolist()))
+    ]
+    return Table(
+        label="tab-shape",
+        caption=(
+            "Shape function. As a check, Simpson’s rule over these ordinates, part by part, makes ",
+            Tex(r"\int \varphi^2 \, \mathrm{d}z = " + in_tex(printed(check, "length", system))),
+            ".",
+        ),
+        columns=[
+            Column(
+                heading=("Height ", Tex("z"), f" [{unit_of('length', system)}]"), align="decimal"
+            ),
+            Column(heading=Tex(r"\varphi"), align="decimal"),
+            Column(heading=Tex(r"\varphi^2"), align="decimal"),
+        ],
+        rows=rows,
+    )
+
+
+def mass_steps(calculation: Calculation) -> Steps:
+    """Return equivalent mass, frequency and damping."""
+    step = _Writer(calculation).step
+    return Steps(
+        [
+            step(
+                "Integral, of the polynomials exactly",
+                "phi2",
+                "<phi2_below> + <phi2_above>",
+            ),
+            step("Equivalent mass", "mp", "<m> <x> <phi2>", source="Eq. 1 of the source paper"),
+            step("Frequency", "fp", r"\frac{1}{2 \pi} \sqrt{\frac{<kp_mass>}{<mp>}}"),
+            step("Damping coefficient", "cp", r"2 <x> <zeta> \sqrt{<kp_mass> <x> <mp>}"),
+        ]
+    )

@@ -1,0 +1,258 @@
+"""Units at the edges: quantities are parsed to SI, and printed in SI or US units."""
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache
+from typing import Any, NamedTuple
+
+from pierimpact.checks import InputError
+
+SYSTEMS = ("SI", "US")
+
+# Every unit is spelt out instead of allowing prefixes: mPa for MPa, or mN for MN, would be an
+# error of nine orders of magnitude that no check of dimensions can see. Masses and forces are
+# kept apart: lb is a mass, lbf and kip are forces.
+_DEFINITIONS = """
+    m = [length]; mm = 0.001 m; cm = 0.01 m; km = 1000 m
+    inch = 0.0254 m = in; ft = 12 inch; yd = 3 ft; mile = 5280 ft = mi
+    kg = [mass]; g = 0.001 kg; t = 1000 kg; lb = 0.45359237 kg
+    s = [time]; ms = 0.001 s; minute = 60 s = min; h = 3600 s; Hz = 1 / s
+    N = kg * m / s ** 2; kN = 1000 N; MN = 1e6 N; GN = 1e9 N
+    lbf = 9.80665 lb * m / s ** 2; kip = 1000 lbf
+    Pa = N / m ** 2; kPa = 1000 Pa; MPa = 1e6 Pa; GPa = 1e9 Pa
+    psi = lbf / inch ** 2; ksi = kip / inch ** 2
+    J = N * m; kJ = 1000 J; MJ = 1e6 J; kph = km / h; mph = mile / h
+"""
+
+
+class Dimension(NamedTuple):
+    """What a quantity must be."""
+
+    si: str  #: SI unit
+    words: str  #: in words, for errors
+    units: str  #: units to suggest
+
+
+DIMENSIONS = {
+    "length": Dimension("m", "a length", "m, mm, ft, in"),
+    "mass": Dimension("kg", "a mass", "kg, t, lb"),
+    "force": Dimension("N", "a force", "kN, MN, lbf, kip"),
+    "moment": Dimension("N*m", "a moment", "kN*m, MN*m, kip*ft"),
+    "pressure": Dimension("Pa", "a stress", "MPa, GPa, psi, ksi"),
+    "density": Dimension("kg/m^3", "a density", "kg/m^3, lb/ft^3"),
+    "speed": Dimension("m/s", "a speed", "km/h, m/s, mph"),
+    "stiffness": Dimension("N/m", "a stiffness", "kN/m, MN/m, kip/in"),
+}
+
+_NUMBER = re.compile(
+    r"\s*([-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|(?:nan|inf)\b))\s*(.*?)\s*", re.ASCII
+)
+_FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?\d)?"
+_EXPRESSION = re.compile(rf"{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
+_MARKS = str.maketrans({"·": "*", "²": "^2", "³": "^3", "⁴": "^4"})
+
+
+@cache
+def _registry() -> Any:
+    """Return the unit registry; pint is imported on first use."""
+    import pint
+
+    registry: Any = pint.UnitRegistry(None)
+    for definition in re.split(r"[;\n]", _DEFINITIONS):
+        if definition.strip():
+            registry.define(definition.strip())
+    return registry
+
+
+@cache
+def _unit(expression: str) -> tuple[float, dict[str, float]] | None:
+    """Return a unit's size in SI units and its dimensions, or None where it is not understood."""
+    import pint
+
+    expression = expression.translate(_MARKS)
+    if not _EXPRESSION.fullmatch(expression):
+        return None
+    expression = re.sub(r"([A-Za-z])(-?\d)", r"\1^\2", expression)
+    try:
+        size = (1.0 * _registry().parse_units(expression)).to_base_units()
+    except (pint.PintError, AttributeError):  # an undefined unit is an AttributeError to pint
+        return None
+    return float(size.magnitude), dict(size.dimensionality)
+
+
+def parse(name: str, value: object, dimension: str) -> float:
+    """Return a quantity such as "36 in" or "4 MN*m" in SI units.
+
+    Parameters
+    ----------
+    name : str
+        What the value is for, to be named in errors.
+    value : object
+        The text: a number and a unit.
+    dimension : str
+        What it must be, one of `DIMENSIONS`.
+
+    Raises
+    ------
+    InputError
+        When the text is not a number with a unit, the unit is unknown or of another dimension,
+        or the number is not finite.
+    """
+    _, words, units = DIMENSIONS[dimension]
+    shown = brief(value)
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        raise InputError(f"{name} must have a unit ({units}), got {shown}")
+    match = _NUMBER.fullmatch(value) if isinstance(value, str) else None
+    if match is None:
+        raise InputError(f"{name} must be {words}, a number with a unit ({units}), got {shown}")
+    magnitude, expression = float(match[1]), match[2]
+    if not expression:
+        raise InputError(f"{name} must have a unit ({units}), got {shown}")
+    unit = _unit(expression)
+    if unit is None:
+        near = nearest(expression, units.split(", "))
+        hint = f"; did you mean {near}?" if near else ""
+        raise InputError(f"{name} must be {words} ({units}), got unknown unit in {shown}{hint}")
+    size, dimensions = unit
+    if dimensions != _dimensions(dimension):
+        nouns = [
+            DIMENSIONS[other].words for other in DIMENSIONS if dimensions == _dimensions(other)
+        ]
+        which = f", which is {nouns[0]}" if nouns else ""
+        raise InputError(f"{name} must be {words} ({units}), got {shown}{which}")
+    result = magnitude * size
+    if not math.isfinite(result):
+        raise InputError(f"{name} must be finite, got {shown}")
+    return result
+
+
+@cache
+def _dimensions(dimension: str) -> dict[str, float] | None:
+    unit = _unit(DIMENSIONS[dimension].si)
+    return unit[1] if unit else None
+
+
+def nearest(word: str, words: Iterable[str]) -> str | None:
+    """Return the one of `words` that `word` is most likely a misspelling of, if any."""
+    by_lower_case = {known.lower(): known for known in words}
+    near = get_close_matches(word.lower(), by_lower_case, n=1)
+    return by_lower_case[near[0]] if near else None
+
+
+def brief(value: object, width: int = 60) -> str:
+    """Return `value` as it would be typed, on one line and cut to `width` characters."""
+    text = repr(value)
+    return text if len(text) <= width else text[: width - 1] + "…"
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """How a kind of value is printed.
+
+    Parameters
+    ----------
+    si, us : tuple of (str, str)
+        Unit as it is parsed and as it is printed, in either system.
+    digits : int
+        Significant figures. A step that later steps build on keeps five, so that a check by
+        hand from the printed values comes out at the four printed of a result.
+    """
+
+    si: tuple[str, str]
+    us: tuple[str, str]
+    digits: int
+
+
+QUANTITIES = {
+    "length": Quantity(("m", "m"), ("ft", "ft"), 5),
+    "section length": Quantity(("m", "m"), ("in", "in"), 5),
+    "area": Quantity(("m^2", "m²"), ("in^2", "in²"), 5),
+    "second moment": Quantity(("m^4", "m⁴"), ("in^4", "in⁴"), 5),
+    "modulus": Quantity(("GPa", "GPa"), ("ksi", "ksi"), 5),
+    "strength": Quantity(("MPa", "MPa"), ("ksi", "ksi"), 5),
+    "density": Quantity(("kg/m^3", "kg/m³"), ("lb/ft^3", "lb/ft³"), 5),
+    "mass": Quantity(("kg", "kg"), ("lb", "lb"), 5),
+    "mass per length": Quantity(("kg/m", "kg/m"), ("lb/ft", "lb/ft"), 5),
+    "flexural rigidity": Quantity(("MN*m^2", "MN·m²"), ("kip*ft^2", "kip·ft²"), 5),
+    "shear rigidity": Quantity(("MN", "MN"), ("kip", "kip"), 5),
+    "flexibility": Quantity(("m/MN", "m/MN"), ("ft/kip", "ft/kip"), 5),
+    "stiffness": Quantity(("MN/m", "MN/m"), ("kip/ft", "kip/ft"), 5),
+    "mass stiffness": Quantity(("kg/s^2", "kg/s²"), ("lb/s^2", "lb/s²"), 5),
+    "damping": Quantity(("kN*s/m", "kN·s/m"), ("kip*s/ft", "kip·s/ft"), 4),
+    "frequency": Quantity(("Hz", "Hz"), ("Hz", "Hz"), 4),
+    "speed": Quantity(("km/h", "km/h"), ("mph", "mph"), 4),
+    "force": Quantity(("kN", "kN"), ("kip", "kip"), 4),
+    "moment": Quantity(("kN*m", "kN·m"), ("kip*ft", "kip·ft"), 4),
+    "time": Quantity(("ms", "ms"), ("ms", "ms"), 4),
+    "share": Quantity(("", ""), ("", ""), 5),
+    "ordinate": Quantity(("", ""), ("", ""), 4),
+    "ratio": Quantity(("", ""), ("", ""), 4),
+}
+
+
+class Printed(NamedTuple):
+    """A value as it is printed."""
+
+    number: str
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{self.number} {self.unit}" if self.unit else self.number
+
+
+def unit_size(quantity: str, system: str) -> float:
+    """Return how large the unit is that a kind of value is printed in, in SI units."""
+    kind = QUANTITIES[quantity]
+    expression = (kind.si if system == "SI" else kind.us)[0]
+    unit = _unit(expression) if expression else (1.0, {})
+    assert unit is not None
+    return unit[0]
+
+
+def unit_of(quantity: str, system: str) -> str:
+    """Return the unit as it is printed, such as "kN·m"."""
+    kind = QUANTITIES[quantity]
+    return (kind.si if system == "SI" else kind.us)[1]
+
+
+def printed(value: float, quantity: str, system: str, *, given: bool = False) -> Printed:
+    """Return a value for print, rounded to the significant figures of its kind.
+
+    Parameters
+    ----------
+    value : float
+        Value in SI units.
+    quantity : str
+        Its kind, one of `QUANTITIES`.
+    system : {"SI", "US"}
+        Units to print in.
+    given : bool, optional
+        Whether it is an input, and prints without zeros that nobody typed.
+    """
+    text = rounded(value / unit_size(quantity, system), QUANTITIES[quantity].digits)
+    if given and "." in text and "×" not in text:
+        text = text.rstrip("0").rstrip(".")
+    return Printed(text, unit_of(quantity, system))
+
+
+def rounded(value: float, digits: int) -> str:
+    """Return a number to `digits` significant figures, as "0.07059", "27 150" or "4.2×10⁻⁵".
+
+    Thousands are parted by a narrow space from five figures on, and powers of ten stand where
+    the plain number would carry more than two zeros to be counted.
+    """
+    if value == 0.0:
+        return "0"
+    mantissa, _, power = f"{value:.{digits - 1}e}".partition("e")
+    exponent = int(power)
+    if not -3 <= exponent <= digits + 1:
+        return f"{mantissa.replace('-', '−')}×10{str(exponent).translate(_SUPERSCRIPTS)}"
+    places = max(digits - 1 - exponent, 0)
+    text = f"{float(f'{value:.{digits - 1}e}'):,.{places}f}".replace("-", "−")
+    return text.replace(",", "" if exponent < 4 else "\u202f")
+
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

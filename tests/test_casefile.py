@@ -1,0 +1,239 @@
+import datetime
+import math
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import pierimpact
+from pierimpact.casefile import (
+    KEYS,
+    PHYSICAL_KEYS,
+    Case,
+    case_from,
+    case_from_notebook,
+    concrete_modulus,
+    read_case,
+)
+from pierimpact.checks import InputError
+
+CASE = {
+    "project": "Example overpass",
+    "column_shape": "circular",
+    "column_diameter": "36 in",
+    "column_height": "5.0 m",
+    "elastic_modulus": "25 GPa",
+    "density": "2400 kg/m^3",
+    "base": "fixed",
+    "top": "pinned",
+    "truck": "single-unit-8t",
+    "truck_mass": "9 t",
+    "speed": "80 km/h",
+    "impact_height": "1.2 m",
+}
+
+
+def test_a_case_becomes_the_core_objects():
+    case = case_from(CASE)
+    assert case.column.section.diameter == pytest.approx(0.9144, rel=1e-15)
+    assert (case.column.height, case.column.elastic_modulus) == (5.0, 25e9)
+    assert (case.column.base, case.column.top) == ("fixed", "pinned")
+    assert (case.truck.mass, case.truck.engine_mass) == (9000.0, 700.0)
+    assert case.truck_file.truck.mass == 8000.0
+    assert case.inputs.speed == pytest.approx(80 / 3.6)
+    assert case.impact_heights == (1.2,)
+    assert (case.inputs.damping_ratio, case.inputs.poisson_ratio, case.inputs.units) == (
+        0.05,
+        0.2,
+        "SI",
+    )
+    assert case.given == CASE
+
+
+def test_the_case_is_frozen():
+    case = case_from(CASE)
+    with pytest.raises(AttributeError):
+        case.column = None
+    with pytest.raises(ValueError, match="frozen"):
+        case.inputs.speed = 1.0
+
+
+def test_rectangular_column_of_concrete():
+    values = CASE | {
+        "column_shape": "rectangular",
+        "column_diameter": None,
+        "column_width": "4 ft",
+        "column_depth": "900 mm",
+        "elastic_modulus": None,
+        "concrete_strength": "28 MPa",
+        "impact_height": "auto",
+        "date": "2026-01-31",
+    }
+    case = case_from(values)
+    assert case.column.section.width == pytest.approx(1.2192)
+    assert case.column.section.depth == pytest.approx(0.9)
+    assert case.column.elastic_modulus == pytest.approx(4700e6 * math.sqrt(28.0))
+    assert case.impact_heights == (1.05, 1.35)
+    assert case.inputs.date == datetime.date(2026, 1, 31)
+
+
+def test_concrete_modulus_is_near_the_form_of_the_formula_in_psi():
+    # 57,000 √f_c' in psi, the other form of the same rule of thumb, rounds differently by 1 %.
+    psi = 6894.757293168
+    assert concrete_modulus(4000 * psi) == pytest.approx(57000 * math.sqrt(4000) * psi, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            {"colunm_height": "5 m"},
+            "'colunm_height' is not a key of a case file; did you mean col",
+        ),
+        ({"Speed": "5 m"}, "'Speed' is not a key of a case file; did you mean speed?"),
+        ({5: "5 m"}, "5 is not a key of a case file"),
+        ({"speed": None}, "speed is missing"),
+        ({"density": None, "speed": None}, "density is missing"),
+        ({"speed": 80}, "speed must have a unit (km/h, m/s, mph), got 80"),
+        ({"speed": "80"}, "speed must have a unit (km/h, m/s, mph), got '80'"),
+        ({"speed": "80 km"}, "speed must be a speed (km/h, m/s, mph), got '80 km', which is a len"),
+        ({"speed": "80 kmh"}, "got unknown unit in '80 kmh'; did you mean km/h?"),
+        ({"speed": "0 km/h"}, "speed must be positive, got '0 km/h'"),
+        ({"speed": "-80 km/h"}, "speed must be positive, got '-80 km/h'"),
+        ({"speed": "inf km/h"}, "speed must be finite, got 'inf km/h'"),
+        ({"speed": ["80 km/h"]}, "speed must be a speed, a number with a unit"),
+        (
+            {"truck_mass": "80 kip"},
+            "truck_mass must be a mass (kg, t, lb), got '80 kip', which",
+        ),
+        ({"truck_mass": "600 kg"}, "truck_mass must exceed the engine's 700 kg, got 600 kg"),
+        ({"truck": "single"}, "truck must be a name of the catalogue (single-unit-8t)"),
+        ({"truck": "mine.toml"}, "truck file mine.toml cannot be read"),
+        (
+            {"column_shape": "round"},
+            "column_shape must be 'circular' or 'rectangular', got",
+        ),
+        (
+            {"column_diameter": None},
+            "column_diameter is missing: it belongs to column_shape",
+        ),
+        ({"column_width": "1 m"}, "column_width does not belong to column_shape circular"),
+        ({"elastic_modulus": None}, "give one of elastic_modulus and concrete_strength"),
+        ({"concrete_strength": "28 MPa"}, "give one of elastic_modulus and concrete_strength"),
+        ({"elastic_modulus": "25 mPa"}, "unknown unit in '25 mPa'; did you mean MPa?"),
+        ({"base": "free"}, "the column would be a mechanism"),
+        ({"base": "fix"}, "base must be 'fixed', 'pinned' or 'free', got 'fix'"),
+        ({"impact_height": "6 m"}, "impact_height must be above 0 m and below the height 5 m"),
+        ({"impact_height": "0 m"}, "impact_height must be above 0 m"),
+        ({"impact_height": "automatic"}, "impact_height must be a length, a number with a unit"),
+        ({"impact_height": "auto", "column_height": "1.2 m"}, "below the height 1.2 m"),
+        ({"damping_ratio": "5 %"}, "damping_ratio must be a plain number without unit, got '5 %'"),
+        ({"damping_ratio": 1.0}, "damping_ratio must be below 1, got 1"),
+        ({"damping_ratio": -0.05}, "damping_ratio must not be negative, got -0.05"),
+        ({"damping_ratio": math.nan}, "damping_ratio must be finite, got nan"),
+        ({"damping_ratio": True}, "damping_ratio must be a plain number without unit, got True"),
+        ({"poisson_ratio": 0.6}, "poisson_ratio must be at most 0.5, got 0.6"),
+        ({"units": "metric"}, "units must be 'SI' or 'US', got 'metric'"),
+        ({"job_number": 7}, "job_number must be text (in quotes if it is a number), got 7"),
+        ({"project": "a\nb"}, "project must be one line without control characters, got 'a\\nb'"),
+        ({"date": "31.1.2026"}, "date must be a date such as 2026-01-31, got '31.1.2026'"),
+        ({"notes": "one"}, "notes must be a list of texts, got 'one'"),
+        ({"notes": [1]}, "notes must be text (in quotes if it is a number), got 1"),
+        ({"assumed": ["base"]}, "assumed must give a text for each key it lists, got ['base']"),
+        ({"assumed": {"bse": "x"}}, "'bse' is not a key that assumed can list; did you mean base?"),
+        ({"assumed": {"base": 1}}, "assumed.base must be text"),
+        (
+            {"sources": {"column_width": "x"}},
+            "column_width is listed under assumed or sources",
+        ),
+    ],
+)
+def test_a_bad_case_is_one_line(change, message):
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        case_from(CASE | change)
+    assert "\n" not in str(caught.value)
+
+
+VALUES = st.none() | st.booleans() | st.integers() | st.floats() | st.text() | st.lists(st.text())
+
+
+@given(st.sampled_from(KEYS), VALUES)
+def test_any_value_makes_a_case_or_a_line(key, value):
+    message = ""
+    try:
+        assert isinstance(case_from(CASE | {key: value}), Case)
+    except InputError as error:
+        message = str(error)
+    assert len(message.splitlines()) <= 1
+
+
+def as_yaml(values):
+    return "".join(f"{key}: {value}\n" for key, value in values.items())
+
+
+def test_a_case_file(tmp_path):
+    path = tmp_path / "case.yaml"
+    path.write_text(as_yaml(CASE) + "date: 2026-01-31\ndamping_ratio: 0.03\n", encoding="utf-8")
+    case = read_case(path)
+    assert case.inputs.date == datetime.date(2026, 1, 31)
+    assert case.inputs.damping_ratio == 0.03
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())  # as some editors begin UTF-8
+    assert read_case(path) == case
+
+
+def test_a_truck_file_is_looked_for_beside_the_case_file(tmp_path):
+    source = Path(pierimpact.__file__).parent / "trucks" / "single-unit-8t.toml"
+    (tmp_path / "trucks").mkdir()
+    shutil.copy(source, tmp_path / "trucks" / "mine.toml")
+    path = tmp_path / "case.yaml"
+    path.write_text(as_yaml(CASE | {"truck": "trucks/mine.toml"}), encoding="utf-8")
+    assert read_case(path).truck_file.sha256 == case_from(CASE).truck_file.sha256
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "must be keys and values (key: value), got None"),
+        (b"- a\n- b\n", "must be keys and values (key: value), got ['a', 'b']"),
+        (b"just words", "must be keys and values (key: value), got 'just words'"),
+        (b"project: \xff", "is not UTF-8 text"),
+        (b"project: [a\nspeed: 3", "line 2: not valid YAML"),
+        (b"project: a\n\tspeed: 3", "line 2: not valid YAML"),
+        (b"speed: 80 km/h\nspeed: 90 km/h", "speed is given twice"),
+        (b"project: !!python/object:os.system x", "line 1: not valid YAML"),
+        (b"project: \x00", "not valid YAML"),
+        (b"a: &a [x]\nb: *c\n", "line 2: not valid YAML"),
+        (b"date: 2026-13-45", "not valid YAML"),
+        (b"{[a]: b}", "not valid YAML"),
+        (b"[" * 5000, "not valid YAML"),
+    ],
+)
+def test_a_bad_file_is_one_line(tmp_path, content, message):
+    path = tmp_path / "case.yaml"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        read_case(path)
+    assert str(caught.value).startswith("case.yaml: ")
+    assert "\n" not in str(caught.value)
+
+
+def test_no_file_or_a_folder(tmp_path):
+    with pytest.raises(InputError, match=r"^nowhere\.yaml: cannot be read: No such file"):
+        read_case(tmp_path / "nowhere.yaml")
+    with pytest.raises(InputError, match="cannot be read: Is a directory"):
+        read_case(tmp_path)
+
+
+def test_the_parameters_of_a_notebook_are_a_case():
+    namespace = dict.fromkeys((*KEYS, "case_file", "case_sha256")) | CASE
+    namespace |= {"re": re, "_": 3, "__name__": "__main__", "In": ["", "x"], "Out": {1: 2}}
+    assert case_from_notebook(namespace) == case_from(CASE)
+    with pytest.raises(InputError, match="'sped' is not a key of a case file; did you mean speed"):
+        case_from_notebook(namespace | {"sped": "80 km/h"})
+
+
+def test_every_physical_key_can_have_a_source():
+    assert {"speed", "damping_ratio", "moment_resistance"} <= set(PHYSICAL_KEYS) <= set(KEYS)

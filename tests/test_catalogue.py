@@ -1,0 +1,142 @@
+import hashlib
+import re
+from pathlib import Path
+
+import pytest
+
+import pierimpact
+from pierimpact.catalogue import STATUSES, load_truck, read_truck_file, truck_names
+from pierimpact.checks import InputError
+from pierimpact.crush import CrushSpring
+
+CATALOGUE = Path(pierimpact.__file__).parent / "trucks"
+REFERENCE = (CATALOGUE / "single-unit-8t.toml").read_text("utf-8")
+
+
+def test_the_reference_truck():
+    truck = load_truck("single-unit-8t")
+    assert (truck.engine_mass, truck.body_mass, truck.mass) == (700.0, 7300.0, 8000.0)
+    assert truck.engine_spring == CrushSpring(
+        plateau_force=150e3, plateau_length=0.5, stiffness=150e6, unloading_stiffness=900e6
+    )
+    assert truck.body_spring == CrushSpring(
+        plateau_force=500e3, plateau_length=1.9, stiffness=10e6, unloading_stiffness=60e6
+    )
+    assert (truck.friction_force, truck.friction_on) == (21.5e3, "road")
+
+
+def test_the_reference_truck_is_not_passed_off_as_the_papers():
+    truck_file = read_truck_file("single-unit-8t")
+    assert truck_file.status == "illustrative"
+    assert "not Table 1 of the source paper" in truck_file.truck.source
+    assert {parameter.status for parameter in truck_file.parameters} == {"illustrative", "assumed"}
+
+
+@pytest.mark.parametrize("name", truck_names())
+def test_every_parameter_has_value_unit_source_and_status(name):
+    truck_file = read_truck_file(name)
+    assert truck_file.truck.name == name
+    assert len(truck_file.parameters) == 12
+    for parameter in truck_file.parameters:
+        assert parameter.source
+        assert parameter.status in STATUSES
+        assert isinstance(parameter.value, str) or parameter.given.split()[1]
+        assert truck_file[parameter.name] is parameter
+
+
+def test_a_truck_of_ones_own_loads_by_path(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        REFERENCE.replace('name = "single-unit-8t"', 'name = "mine"').replace(
+            'value = 700\nunit = "kg"', 'value = 0.7\nunit = "t"'
+        ),
+        encoding="utf-8",
+    )
+    assert load_truck(path) == load_truck(str(path))
+    assert load_truck(path).engine_mass == pytest.approx(700.0, rel=1e-15)
+    truck_file = read_truck_file("mine.toml", folder=tmp_path)
+    assert (truck_file.truck.name, truck_file.file_name) == ("mine", "mine.toml")
+    assert truck_file["engine_mass"].given == "0.7 t"
+    assert truck_file.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "[engine_mass]",
+            "[engin_mass]",
+            "engin_mass is not a truck parameter; did you mean engine",
+        ),
+        (
+            "[engine_spring.stiffness]",
+            "[engine_spring.stifness]",
+            "engine_spring.stifness is not a truck parameter; did you mean engine_spring.s",
+        ),
+        ("[friction_force]", "[body_spring.friction]", "body_spring.friction is not a truck"),
+        (
+            'unit = "kg"',
+            'units = "kg"',
+            "engine_mass.units is not a key; did you mean engine_mass.",
+        ),
+        ("value = 700\n", "", "engine_mass.value is missing"),
+        ("value = 700\n", 'value = "700"\n', "engine_mass.value must be a number, got '700'"),
+        ("value = 700\n", "value = nan\n", "engine_mass.value must be finite, got nan"),
+        ("value = 700\n", "value = -700\n", "engine_mass must be positive, got -700"),
+        ('unit = "kg"', 'unit = "kip"', "engine_mass must be a mass (kg, t, lb), got '700 kip'"),
+        ('unit = "kg"', "unit = 3", "engine_mass.unit must be text, got 3"),
+        ('value = "road"', 'value = "sky"', "friction_on must be one of road, pier, got 'sky'"),
+        ('status = "illustrative"', 'status = "sure"', "status must be one of read, secondary"),
+        ('name = "single-unit-8t"', "", "name must be text, got None"),
+        (
+            'value = 900\nunit = "MN/m"',
+            'value = 90\nunit = "MN/m"',
+            "engine_spring.unloading_stiffness must be at least stiffness",
+        ),
+        ("name =", "name", "is not valid TOML"),
+    ],
+)
+def test_a_bad_truck_file_is_one_line(tmp_path, old, new, message):
+    path = tmp_path / "mine.toml"
+    assert old in REFERENCE
+    path.write_text(REFERENCE.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        load_truck(path)
+    assert "mine.toml" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_missing_parameter_or_spring(tmp_path):
+    path = tmp_path / "mine.toml"
+    start = REFERENCE.index("[friction_force]")
+    path.write_text(
+        REFERENCE[:start] + REFERENCE[REFERENCE.index("[friction_on]") :], encoding="utf-8"
+    )
+    with pytest.raises(InputError, match="friction_force must be a table with value, unit"):
+        load_truck(path)
+    path.write_text(REFERENCE[: REFERENCE.index("[body_spring")], encoding="utf-8")
+    with pytest.raises(InputError, match="body_spring must be a table of its parameters, got None"):
+        load_truck(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("single-unit", r"catalogue \(single-unit-8t\).*did you mean single-unit-8t\?"),
+        ("zzz", r"must be a name of the catalogue \(single-unit-8t\) or the path of a .toml file"),
+        ("nowhere.toml", "truck file nowhere.toml cannot be read: No such file"),
+    ],
+)
+def test_no_such_truck(name, message):
+    with pytest.raises(InputError, match=message):
+        load_truck(name)
+
+
+def test_not_text(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_bytes(b"name = '\xff'")
+    with pytest.raises(InputError, match="is not UTF-8 text"):
+        load_truck(path)
+    (tmp_path / "folder.toml").mkdir()
+    with pytest.raises(InputError, match="cannot be read: Is a directory"):
+        load_truck(tmp_path / "folder.toml")

@@ -1,0 +1,135 @@
+import math
+import re
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pierimpact.checks import InputError
+from pierimpact.units import DIMENSIONS, QUANTITIES, SYSTEMS, parse, printed, rounded
+
+# The international inch and pound, standard gravity, and what follows from them.
+INCH, POUND, GRAVITY = 0.0254, 0.45359237, 9.80665
+POUND_FORCE = POUND * GRAVITY
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "expected"),
+    [
+        ("36 in", "length", 36 * INCH),
+        ("16.5ft", "length", 16.5 * 12 * INCH),
+        ("-1.5e2 mm", "length", -0.15),
+        ("80 km/h", "speed", 80 / 3.6),
+        ("55 mph", "speed", 55 * 5280 * 12 * INCH / 3600),
+        ("8 t", "mass", 8000.0),
+        ("36000 lb", "mass", 36000 * POUND),
+        ("600 kip", "force", 600e3 * POUND_FORCE),
+        ("600e3 lbf", "force", 600e3 * POUND_FORCE),
+        ("2.5 MN", "force", 2.5e6),
+        ("4 MN*m", "moment", 4e6),
+        ("4 MN·m", "moment", 4e6),
+        ("4 kip ft", "moment", 4e3 * POUND_FORCE * 12 * INCH),
+        ("4 ksi", "pressure", 4e3 * POUND_FORCE / INCH**2),
+        ("150 lb/ft^3", "density", 150 * POUND / (12 * INCH) ** 3),
+        ("2400 kg/m3", "density", 2400.0),
+        ("2400 kg m^-3", "density", 2400.0),
+        ("150 MN/m", "stiffness", 150e6),
+    ],
+)
+def test_parse(text, dimension, expected):
+    assert parse("value", text, dimension) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("value", "dimension", "message"),
+    [
+        (36, "length", "value must have a unit (m, mm, ft, in), got 36"),
+        ("36", "length", "value must have a unit (m, mm, ft, in), got '36'"),
+        (True, "length", "value must be a length, a number with a unit"),
+        ("abc", "length", "value must be a length, a number with a unit"),
+        ("5 inn", "length", "got unknown unit in '5 inn'; did you mean in?"),
+        ("25 mPa", "pressure", "got unknown unit in '25 mPa'; did you mean MPa?"),
+        ("25 gpa", "pressure", "did you mean GPa?"),
+        ("12,5 m", "length", "unknown unit in '12,5 m'"),
+        ("80 kip", "mass", "value must be a mass (kg, t, lb), got '80 kip', which is a force"),
+        (
+            "80 lb",
+            "force",
+            "value must be a force (kN, MN, lbf, kip), got '80 lb', which is",
+        ),
+        ("80 km", "speed", "got '80 km', which is a length"),
+        ("5 m^9*m^9", "length", "value must be a length"),
+        ("5 m**999999999", "length", "unknown unit"),
+        ("5 m^", "length", "unknown unit"),
+        ("nan m", "length", "value must be finite, got 'nan m'"),
+        ("-inf m", "length", "value must be finite"),
+        ("1e999 m", "length", "value must be finite"),
+        ("1e307 km", "length", "value must be finite"),
+    ],
+)
+def test_what_does_not_parse(value, dimension, message):
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        parse("value", value, dimension)
+    assert "\n" not in str(caught.value)
+
+
+@given(st.text() | st.from_regex(r"[0-9.e+-]{1,5} ?[a-zA-Z*/^0-9 ()-]{1,12}", fullmatch=True))
+def test_any_text_is_a_number_or_a_line(text):
+    for dimension in DIMENSIONS:
+        message = "value is fine"
+        try:
+            assert math.isfinite(parse("value", text, dimension))
+        except InputError as error:
+            message = str(error)
+        assert message.startswith("value ")
+        assert len(message.splitlines()) == 1
+
+
+@given(
+    st.floats(min_value=1e-12, max_value=1e15) | st.floats(min_value=-1e15, max_value=-1e-12),
+    st.integers(min_value=2, max_value=6),
+)
+def test_rounding_keeps_the_significant_figures(value, digits):
+    text = rounded(value, digits)
+    mantissa, _, power = text.partition("×10")
+    figures = mantissa.replace("\u202f", "").replace("−", "-")
+    superscripts = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+    back = float(figures) * 10.0 ** int(power.translate(superscripts) or 0)
+    assert back == pytest.approx(value, rel=0.5000001 * 10.0 ** (1 - digits))
+    # As many figures as asked for, but for zeros before a point that is not printed.
+    counted = figures.lstrip("-0.").replace(".", "")
+    assert len(counted) == digits or ("." not in figures and len(counted) > digits)
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [
+        (2702453.0, 4, "2.702×10⁶"),
+        (2702453.0, 5, "2\u202f702\u202f500"),
+        (27149.6, 4, "27\u202f150"),
+        (9999.6, 4, "10\u202f000"),
+        (2702.453, 4, "2702"),
+        (0.0705949, 4, "0.07059"),
+        (-1.25, 3, "−1.25"),
+        (4.2e-5, 2, "4.2×10⁻⁵"),
+        (0.0, 4, "0"),
+    ],
+)
+def test_rounded(value, digits, text):
+    assert rounded(value, digits) == text
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+@pytest.mark.parametrize("dimension", sorted(DIMENSIONS.keys() & QUANTITIES.keys()))
+def test_what_is_printed_parses_back(dimension, system):
+    value = 1234.5678
+    shown = printed(value, dimension, system)
+    digits = QUANTITIES[dimension].digits
+    text = str(shown).replace("\u202f", "").replace("×10⁶", "e6").replace("×10⁷", "e7")
+    assert parse("value", text, dimension) == pytest.approx(value, rel=0.6 * 10 ** (1 - digits))
+
+
+def test_mass_and_force_are_kept_apart():
+    assert printed(POUND, "mass", "US").unit == "lb"
+    assert printed(1e3 * POUND_FORCE, "force", "US") == ("1.000", "kip")
+    assert printed(1e3 * POUND_FORCE, "force", "US", given=True) == ("1", "kip")
