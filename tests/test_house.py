@@ -1,0 +1,77 @@
+"""The house rules: style, types, direction of imports, notebooks without output, true README."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+HOUSE = Path(__file__).parents[1]
+SCRIPTS = Path(sys.executable).parent
+
+RULES = {
+    "style": ["ruff", "check", "--no-cache", "."],
+    "format": ["ruff", "format", "--no-cache", "--check", "."],
+    "types": ["mypy", "--cache-dir", "/dev/null"],
+    "imports": ["lint-imports", "--no-cache"],
+}
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_rule_is_kept(rule):
+    command, *arguments = RULES[rule]
+    done = subprocess.run(
+        [SCRIPTS / command, *arguments], cwd=HOUSE, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("notebook", sorted((HOUSE / "notebooks").glob("*.ipynb")), ids=str)
+def test_notebook_is_stored_without_output(notebook):
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    code = [cell for cell in cells if cell["cell_type"] == "code"]
+    assert not any(cell["outputs"] or cell["execution_count"] for cell in code)
+
+
+def test_import_loads_nothing_heavy():
+    heavy = ("scipy", "matplotlib", "IPython", "pint", "pydantic", "nbconvert")
+    program = f"import sys, pierimpact; print([m for m in {heavy!r} if m in sys.modules])"
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=HOUSE, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "[]"
+
+
+def test_every_public_name_is_there():
+    import pierimpact
+
+    for name in pierimpact.__all__:
+        assert getattr(pierimpact, name) is not None
+    with pytest.raises(AttributeError, match="no attribute 'truk'"):
+        pierimpact.truk  # noqa: B018
+
+
+def test_every_dependency_is_justified():
+    project = (HOUSE / "pyproject.toml").read_text(encoding="utf-8")
+    asked = set(re.findall(r'^\s*"([a-zA-Z0-9_-]+)(?:\[\w+\])?>=', project, re.MULTILINE))
+    asked |= set(re.findall(r'"([a-zA-Z0-9_-]+)>=[\d.]+"', project))
+    justified = (HOUSE / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    assert {name for name in asked if f"`{name}`" not in justified} == set()
+
+
+def test_links_of_the_readme_lead_somewhere():
+    readme = (HOUSE / "README.md").read_text(encoding="utf-8")
+    targets = re.findall(r"\]\((?!https?:)([^)#]+)\)", readme)
+    assert targets
+    assert [target for target in targets if not (HOUSE / target).exists()] == []
+
+
+def test_python_of_the_readme_runs(capsys):
+    readme = (HOUSE / "README.md").read_text(encoding="utf-8")
+    for program in re.findall(r"```python\n(.*?)```", readme, re.DOTALL):
+        exec(compile(program, "README.md", "exec"), {})
+    engine_and_cargo, governing = capsys.readouterr().out.strip().splitlines()
+    assert len(engine_and_cargo.split()) == 2
+    assert governing.split()[1] in {"engine", "cargo"}
