@@ -1,0 +1,202 @@
+"""Vehicle impact forces of design codes, one function a clause.
+
+Each number carries where it comes from. Only what is cited in the source paper or was read in a
+public copy of the code is taken as sure; all else says so wherever it is printed.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from pierimpact.checks import one_of, positive
+
+KIP = 4448.2216152605  # pound-force of exactly 0.45359237 kg × 9.80665 m/s², times 1000 [N]
+
+CITED = "cited in the source paper"
+READ = "read in a public copy"
+SECOND_HAND = "second-hand"
+RECALLED = "from memory"
+UNVERIFIED = "unverified: check against the standard"
+STATUSES = (CITED, READ, SECOND_HAND, RECALLED)
+
+
+class Sourced(NamedTuple):
+    """A value in SI units and how sure it is, one of STATUSES."""
+
+    value: float
+    status: str
+
+    @property
+    def verified(self) -> bool:
+        """Whether the value is cited in the source paper or was read in the code."""
+        return self.status in (CITED, READ)
+
+    @property
+    def remark(self) -> str:
+        """What is printed beside the value."""
+        return self.status if self.verified else UNVERIFIED
+
+
+@dataclass(frozen=True, kw_only=True)
+class CodeForce:
+    """The equivalent static force of a clause.
+
+    Parameters
+    ----------
+    code : str
+        Name of the code, and its edition where that is known.
+    clause : str
+        Clause, table or annex.
+    along : Sourced
+        Force along the direction of travel [N].
+    across : Sourced or None, optional
+        Force across it [N].
+    height : Sourced or None, optional
+        Height of application above the ground or carriageway [m]; None where it is not known
+        here.
+    note : str, optional
+        What else the clause says, or what the force does not cover.
+    """
+
+    code: str
+    clause: str
+    along: Sourced
+    across: Sourced | None = None
+    height: Sourced | None = None
+    note: str = ""
+
+    @property
+    def verified(self) -> bool:
+        """Whether every number of the clause that is given here is sure."""
+        numbers = (self.along, self.across, self.height)
+        return all(number.verified for number in numbers if number is not None)
+
+
+def aashto_lrfd() -> CodeForce:
+    """AASHTO LRFD Bridge Design Specifications, 3.6.5: 600 kip at 1.5 m above ground."""
+    return CodeForce(
+        code="AASHTO LRFD",
+        clause="3.6.5",
+        along=Sourced(600.0 * KIP, CITED),
+        height=Sourced(1.5, CITED),
+        note="From two full-scale tests. The clause number is from memory.",
+    )
+
+
+def aashto_lrfd_former() -> CodeForce:
+    """AASHTO LRFD Bridge Design Specifications before the tests: 400 kip at 1.2 m."""
+    return CodeForce(
+        code="AASHTO LRFD, former value",
+        clause="3.6.5",
+        along=Sourced(400.0 * KIP, CITED),
+        height=Sourced(1.2, CITED),
+        note="In use for nearly 20 years. The clause number is from memory.",
+    )
+
+
+def jtg_d60() -> CodeForce:
+    """JTG D60, General Code for Design of Highway and Culverts (China)."""
+    return CodeForce(
+        code="JTG D60",
+        clause="vehicular impact",
+        along=Sourced(1000e3, CITED),
+        across=Sourced(500e3, CITED),
+        height=Sourced(1.2, SECOND_HAND),
+        note="The two directions are not considered at the same time.",
+    )
+
+
+#: Road classes of EN 1991-1-7 Table 4.1, with forces along and across the travel [N].
+ROAD_CLASSES = {
+    "motorway": (1000e3, 500e3),
+    "country": (750e3, 375e3),
+    "urban": (500e3, 250e3),
+    "car park, cars": (50e3, 25e3),
+    "car park, lorries": (150e3, 75e3),
+}
+
+
+def en_1991_1_7_table(road_class: str = "motorway") -> CodeForce:
+    """EN 1991-1-7, Table 4.1: indicative force by road class.
+
+    Parameters
+    ----------
+    road_class : str, optional
+        One of ROAD_CLASSES; motorways stand for national roads too.
+
+    Raises
+    ------
+    InputError
+        When the class is unknown.
+    """
+    one_of("road_class", road_class, tuple(ROAD_CLASSES))
+    along, across = ROAD_CLASSES[road_class]
+    return CodeForce(
+        code=f"EN 1991-1-7, {road_class}",
+        clause="Table 4.1",
+        along=Sourced(along, RECALLED),
+        across=Sourced(across, RECALLED),
+        note="That the force depends on the road is cited in the source paper; its amount is not.",
+    )
+
+
+def en_1991_1_7_hard_impact(speed: float, mass: float, stiffness: float | None = None) -> CodeForce:
+    """EN 1991-1-7, Annex C (informative): hard impact, F = v √(k m).
+
+    Parameters
+    ----------
+    speed : float
+        Speed v at impact [m/s].
+    mass : float
+        Mass m of the vehicle [kg].
+    stiffness : float, optional
+        Stiffness k of the vehicle [N/m]; 300 kN/m, which is second-hand, unless given.
+
+    Raises
+    ------
+    InputError
+        When a value is not positive.
+    """
+    status = SECOND_HAND if stiffness is None else READ
+    stiffness = positive("stiffness", 300e3 if stiffness is None else stiffness)
+    force = positive("speed", speed) * math.sqrt(stiffness * positive("mass", mass))
+    return CodeForce(
+        code="EN 1991-1-7, hard impact",
+        clause="Annex C",
+        along=Sourced(force, status),
+        note="Informative. The formula was read in a public copy"
+        + (", the stiffness of 300 kN/m was not." if status == SECOND_HAND else "."),
+    )
+
+
+def as_5100_2() -> CodeForce:
+    """AS 5100.2, an older edition: 2000 kN, ultimate."""
+    return CodeForce(
+        code="AS 5100.2, older edition",
+        clause="collision load",
+        along=Sourced(2000e3, READ),
+        note="An ultimate load.",
+    )
+
+
+def csa_s6_2000() -> CodeForce:
+    """CSA S6-2000: 1400 kN at 1.2 m."""
+    return CodeForce(
+        code="CSA S6-2000",
+        clause="collision load",
+        along=Sourced(1400e3, SECOND_HAND),
+        height=Sourced(1.2, SECOND_HAND),
+    )
+
+
+def code_forces(speed: float, mass: float) -> tuple[CodeForce, ...]:
+    """Return every clause, for a vehicle of that speed [m/s] and mass [kg] where it matters."""
+    return (
+        aashto_lrfd(),
+        aashto_lrfd_former(),
+        jtg_d60(),
+        *(en_1991_1_7_table(road) for road in ("motorway", "country", "urban")),
+        en_1991_1_7_hard_impact(speed, mass),
+        as_5100_2(),
+        csa_s6_2000(),
+    )
