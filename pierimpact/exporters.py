@@ -120,7 +120,9 @@ class SheetHTMLExporter(_SheetExporter):
 
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
         sheet = super()._sheet(nb)
-        return sheet | {"pieces": _numbered("\n".join(sheet["pieces"]))}
+        # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
+        page = re.sub(r"<annotation .*?</annotation>", "", "\n".join(sheet["pieces"]), flags=re.S)
+        return sheet | {"pieces": _numbered(page)}
 
     def _formulas(self, text: str) -> list[str]:
         marks = {"": "$", " display": "$$"}
@@ -132,9 +134,7 @@ class SheetHTMLExporter(_SheetExporter):
         ]
 
     def _formula(self, match: re.Match[str], converted: str) -> str:
-        # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
-        bare = re.sub(r"<annotation.*?</annotation>", "", converted, flags=re.DOTALL)
-        return bare.removeprefix("<p>").removesuffix("</p>")
+        return converted.removeprefix("<p>").removesuffix("</p>")
 
 
 def _numbered(page: str) -> str:
