@@ -21,7 +21,8 @@ from nbformat import NotebookNode
 from pypandoc import get_pandoc_path
 from traitlets import default
 
-from pierimpact.sheet import SHEET_MIME, TYPST_MIME, typst_string
+from pierimpact.markup import typst_string
+from pierimpact.sheet import SHEET_MIME, TYPST_MIME
 
 _PACKAGE = Path(__file__).parent
 _MARKDOWN = "markdown-citations-yaml_metadata_block"

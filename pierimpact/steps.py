@@ -12,8 +12,9 @@ from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from pierimpact.calculation import Calculation
+from pierimpact.markup import Tex, in_tex, number_in_tex
 from pierimpact.sections import CircularSection
-from pierimpact.sheet import Column, Equation, Steps, Table, Tex, in_tex, number_in_tex
+from pierimpact.sheet import Column, Equation, Steps, Table
 from pierimpact.units import printed, unit_of
 
 _LONG = 90  # LaTeX with values of more characters than this leaves no room for the result
