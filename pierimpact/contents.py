@@ -1,81 +1,24 @@
 """What the calculation sheet of a case says: one function a piece."""
 
 import datetime
-import re
-from collections.abc import Iterator
 
 import pierimpact
 from pierimpact.calculation import MUCH_SMALLER, Calculation
-from pierimpact.casefile import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, PHYSICAL_KEYS
+from pierimpact.casefile import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.figures import draw_history
+from pierimpact.input_tables import STATUS_WORDS, name_of
+from pierimpact.markup import Code, Inline, Tex
 from pierimpact.sheet import (
     Block,
-    Code,
     Column,
     Figure,
     Headline,
-    Inline,
     Notice,
     Paragraph,
     Table,
-    Tex,
     TitleBlock,
 )
 from pierimpact.units import Printed, printed, rounded, unit_of
-
-# Name, symbol and kind of quantity of the keys of a case file; no kind where the value is a word.
-_INPUTS = {
-    "column_shape": ("Shape of the section", "", ""),
-    "base": ("Base of the column", "", ""),
-    "top": ("Top of the column", "", ""),
-    "column_diameter": ("Column diameter", "D", "section length"),
-    "column_width": ("Column width, across the travel", "b", "section length"),
-    "column_depth": ("Column depth, along the travel", "h", "section length"),
-    "column_height": ("Column height", "H", "length"),
-    "elastic_modulus": ("Elastic modulus", "E", "modulus"),
-    "concrete_strength": ("Concrete strength", r"f_\mathrm{c}'", "strength"),
-    "poisson_ratio": ("Poisson’s ratio", r"\nu", "ratio"),
-    "density": ("Density", r"\rho", "density"),
-    "truck_mass": ("Total mass of the truck", "m_1 + m_2", "mass"),
-    "speed": ("Speed at first touch", "V", "speed"),
-    "impact_height": ("Nominal impact height", r"z_\mathrm{n}", "length"),
-    "damping_ratio": ("Damping ratio of the pier", r"\zeta", "ratio"),
-    "shear_resistance": ("Resistance to shear", r"V_\mathrm{R}", "force"),
-    "moment_resistance": ("Resistance to moment", r"M_\mathrm{R}", "moment"),
-}
-
-_TRUCK_PARAMETERS = {
-    "engine_mass": ("Engine mass", "m_1", "mass"),
-    "body_mass": ("Mass of body and cargo", "m_2", "mass"),
-    "friction_force": ("Friction on the body", r"c_\mathrm{s}", "force"),
-    "friction_on": ("Friction acts against the", "", ""),
-    "engine_spring.plateau_force": ("Engine spring: plateau force", "P_1", "force"),
-    "engine_spring.plateau_length": ("Engine spring: plateau length", "d_1", "length"),
-    "engine_spring.stiffness": ("Engine spring: steep stiffness", "k_1", "stiffness"),
-    "engine_spring.unloading_stiffness": (
-        "Engine spring: unloading stiffness",
-        r"k_\mathrm{u1}",
-        "stiffness",
-    ),
-    "body_spring.plateau_force": ("Body spring: plateau force", "P_2", "force"),
-    "body_spring.plateau_length": ("Body spring: plateau length", "d_2", "length"),
-    "body_spring.stiffness": ("Body spring: steep stiffness", "k_2", "stiffness"),
-    "body_spring.unloading_stiffness": (
-        "Body spring: unloading stiffness",
-        r"k_\mathrm{u2}",
-        "stiffness",
-    ),
-}
-
-# How the statuses of a truck file read in print.
-_STATUSES = {
-    "read": "read in the source",
-    "secondary": "unverified: second-hand",
-    "recalled": "unverified: from memory",
-    "calibrated": "calibrated",
-    "assumed": "assumed",
-    "illustrative": "illustrative",
-}
 
 
 def title_block(calculation: Calculation) -> Block:
@@ -156,97 +99,14 @@ def warnings(calculation: Calculation) -> Block:
     status = case.truck_file.status
     if status != "read":
         body.append(
-            f"The truck {case.truck.name} is {_STATUSES[status]} ({case.truck_file.source}). "
+            f"The truck {case.truck.name} is {STATUS_WORDS[status]} ({case.truck_file.source}). "
             "The results are no better than its parameters."
         )
     if case.inputs.assumed:
-        names = ", ".join(_name(key) for key in _INPUTS if key in case.inputs.assumed)
+        names = ", ".join(name_of(key) for key in case.inputs.assumed)
         body.append(f"Assumed, not given by any source: {names}.")
     body += case.inputs.notes
     return Notice(heading="Before you rely on this", body=body)
-
-
-def inputs_table(calculation: Calculation) -> Block:
-    """Return what the case gives, with source and status."""
-    rows = [_input_row(calculation, key) for key in _INPUTS if key in _shown_keys(calculation)]
-    return Table(
-        label="tab-inputs",
-        caption="Inputs of the case.",
-        columns=[
-            Column(heading="Input"),
-            Column(heading="Symbol"),
-            Column(heading="Value", align="decimal"),
-            Column(heading="Unit"),
-            Column(heading="Status"),
-            Column(heading="Source", wide=True),
-        ],
-        rows=rows,
-    )
-
-
-def _shown_keys(calculation: Calculation) -> Iterator[str]:
-    inputs = calculation.case.inputs
-    for key in PHYSICAL_KEYS:
-        if getattr(inputs, key) is not None or key == "truck_mass":
-            yield key
-
-
-def _input_row(calculation: Calculation, key: str) -> list[Inline]:
-    case = calculation.case
-    name, symbol, quantity = _INPUTS[key]
-    value = getattr(case.inputs, key)
-    status, source = "given", case.inputs.sources.get(key, "case file")
-    if key in case.inputs.assumed:
-        status, source = "assumed", case.inputs.assumed[key]
-    elif key not in case.given:
-        status, source = "default", "pierimpact"
-    if value is None:  # the mass is the truck's own
-        value, status, source = case.truck.mass, "given", f"truck file {case.truck_file.file_name}"
-    if isinstance(value, str):
-        word = "by the rule" if value == "auto" else value
-        return [name, Tex(symbol) if symbol else "", word, "", status, source]
-    shown = printed(value, quantity, case.inputs.units, given=True)
-    typed = case.given.get(key)
-    if isinstance(typed, str) and not _plain(typed).endswith(_plain(shown.unit)):
-        source += f"; given as {typed}"
-    return [name, Tex(symbol), shown.number, shown.unit, status, source]
-
-
-def _plain(unit: str) -> str:
-    """Return a unit as typed or printed in one spelling, to tell whether it was converted."""
-    return re.sub(r"[\s^*·]", "", unit.translate(str.maketrans("²³⁴", "234")))
-
-
-def truck_table(calculation: Calculation) -> Block:
-    """Return the parameters of the truck, with source and status."""
-    case = calculation.case
-    system = case.inputs.units
-    rows: list[list[Inline]] = []
-    for key, (name, symbol, quantity) in _TRUCK_PARAMETERS.items():
-        parameter = case.truck_file[key]
-        status, source = _STATUSES[parameter.status], parameter.source
-        value = parameter.value
-        if key == "body_mass" and case.inputs.truck_mass is not None:
-            value = case.truck.body_mass
-            status, source = "from the case", "total mass of the case less the engine’s"
-        if isinstance(value, str):
-            rows.append([name, "", value, "", status, source])
-        else:
-            shown = printed(value, quantity, system, given=True)
-            rows.append([name, Tex(symbol), shown.number, shown.unit, status, source])
-    return Table(
-        label="tab-truck",
-        caption=f"Parameters of the truck {case.truck.name}: {case.truck_file.description}.",
-        columns=[
-            Column(heading="Parameter"),
-            Column(heading="Symbol"),
-            Column(heading="Value", align="decimal"),
-            Column(heading="Unit"),
-            Column(heading="Status"),
-            Column(heading="Source", wide=True),
-        ],
-        rows=rows,
-    )
 
 
 def impact_height(calculation: Calculation) -> Block:
@@ -410,7 +270,7 @@ def provenance_table(
     else:
         rows.append(["Case file", "not recorded: the parameters were set in the notebook"])
     rows += [
-        ["Truck file", (Code(truck_file.file_name), f", {_STATUSES[truck_file.status]}")],
+        ["Truck file", (Code(truck_file.file_name), f", {STATUS_WORDS[truck_file.status]}")],
         ["its SHA-256", Code(truck_file.sha256)],
         ["Energy balance", _error_words(history.energy_error, "the truck’s initial energy")],
         ["Momentum balance", _error_words(history.momentum_error, "the truck’s initial momentum")],
@@ -425,9 +285,3 @@ def provenance_table(
 
 def _error_words(error: float, whole: str) -> str:
     return f"closes to {rounded(error, 1)} of {whole}, at all times"
-
-
-def _name(key: str) -> str:
-    """Return the name of an input as it reads within a sentence."""
-    name = _INPUTS[key][0]
-    return name if name.startswith("Poisson") else name[0].lower() + name[1:]

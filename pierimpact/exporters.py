@@ -21,7 +21,8 @@ from nbformat import NotebookNode
 from pypandoc import get_pandoc_path
 from traitlets import default
 
-from pierimpact.sheet import SHEET_MIME, TYPST_MIME, typst_string
+from pierimpact.markup import typst_string
+from pierimpact.sheet import SHEET_MIME, TYPST_MIME
 
 _PACKAGE = Path(__file__).parent
 _MARKDOWN = "markdown-citations-yaml_metadata_block"
@@ -120,7 +121,9 @@ class SheetHTMLExporter(_SheetExporter):
 
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
         sheet = super()._sheet(nb)
-        return sheet | {"pieces": _numbered("\n".join(sheet["pieces"]))}
+        # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
+        page = re.sub(r"<annotation .*?</annotation>", "", "\n".join(sheet["pieces"]), flags=re.S)
+        return sheet | {"pieces": _numbered(page)}
 
     def _formulas(self, text: str) -> list[str]:
         marks = {"": "$", " display": "$$"}
@@ -132,9 +135,7 @@ class SheetHTMLExporter(_SheetExporter):
         ]
 
     def _formula(self, match: re.Match[str], converted: str) -> str:
-        # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
-        bare = re.sub(r"<annotation.*?</annotation>", "", converted, flags=re.DOTALL)
-        return bare.removeprefix("<p>").removesuffix("</p>")
+        return converted.removeprefix("<p>").removesuffix("</p>")
 
 
 def _numbered(page: str) -> str:

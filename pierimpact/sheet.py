@@ -1,84 +1,21 @@
 """The building blocks of a calculation sheet, each written as HTML and as Typst.
 
-Mathematics is LaTeX in both, between marks that the exporters replace (JupyterLab typesets those
-of the HTML itself). Text is never markup: it is escaped in HTML, and a string literal in Typst.
 Figures, tables and equations are numbered by the exporters, in the order they come.
 """
 
 import base64
 import html
-import json
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from pierimpact.markup import Inline, to_html, to_typst, typst_string
 from pierimpact.units import Printed
 
 #: MIME type of what running headers, document properties and paper size need to know.
 SHEET_MIME = "application/vnd.pierimpact.sheet+json"
 TYPST_MIME = "text/x-typst"
-
-
-@dataclass(frozen=True)
-class Tex:
-    """Inline mathematics in LaTeX."""
-
-    source: str
-
-
-@dataclass(frozen=True)
-class Code:
-    """Text to be typed or compared letter by letter."""
-
-    text: str
-
-
-Piece = str | Tex | Code
-Inline = Piece | tuple[Piece, ...]  #: one piece of text, or a run of them
-
-
-def to_html(inline: Inline) -> str:
-    """Return text and mathematics as HTML."""
-    if isinstance(inline, tuple):
-        return "".join(map(to_html, inline))
-    if isinstance(inline, Tex):
-        return rf'<span class="math">\({html.escape(inline.source)}\)</span>'
-    if isinstance(inline, Code):
-        return f"<code>{html.escape(inline.text)}</code>"
-    return html.escape(inline)
-
-
-def to_typst(inline: Inline) -> str:
-    """Return text and mathematics as Typst markup."""
-    if isinstance(inline, tuple):
-        return "".join(map(to_typst, inline))
-    if isinstance(inline, Tex):
-        return f"#tex({typst_string(inline.source)});"
-    if isinstance(inline, Code):
-        return f"#raw({typst_string(inline.text)});"
-    return f"#{typst_string(inline)};"
-
-
-def typst_string(text: str) -> str:
-    """Return `text` as a Typst string literal: nothing in it can act as markup."""
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
-
-
-def in_tex(value: Printed) -> str:
-    """Return a printed value with its unit as LaTeX."""
-    return number_in_tex(value) + (rf"\ \text{{{value.unit}}}" if value.unit else "")
-
-
-def number_in_tex(value: Printed) -> str:
-    """Return a printed value without its unit as LaTeX."""
-    mantissa, times, power = value.number.partition("×10")
-    number = mantissa.replace("−", "-").replace("\u202f", r"\,")
-    return rf"{number} \times 10^{{{power.translate(_PLAIN_DIGITS)}}}" if times else number
-
-
-_PLAIN_DIGITS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
 class Block(ABC):
@@ -149,7 +86,7 @@ class TitleBlock(Block):
             "paper": self.paper,
             "entries": self.entries,
         }
-        return super()._repr_mimebundle_() | {SHEET_MIME: json.loads(json.dumps(sheet))}
+        return super()._repr_mimebundle_() | {SHEET_MIME: sheet}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,88 +1,22 @@
-r"""The pier's values step by step: symbol, formula, substitution and result of each.
-
-A formula is LaTeX with names in angle brackets: `\frac{1}{<X>}` prints once with their symbols
-and once with their values. A product of them is written with `<x>`, a cross between values only.
-"""
-
-import re
-from typing import NamedTuple
+"""The pier's values step by step: symbol, formula, substitution and result of each."""
 
 import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from pierimpact.calculation import Calculation
+from pierimpact.markup import Tex, in_tex, number_in_tex
 from pierimpact.sections import CircularSection
-from pierimpact.sheet import Column, Equation, Steps, Table, Tex, in_tex, number_in_tex
+from pierimpact.sheet import Column, Equation, Steps, Table
+from pierimpact.step_writer import StepWriter, Value
 from pierimpact.units import printed, unit_of
 
-_LONG = 90  # LaTeX with values of more characters than this leaves no room for the result
+
+def _writer(calculation: Calculation) -> StepWriter:
+    return StepWriter(_values(calculation), calculation.case.inputs.units)
 
 
-class _Value(NamedTuple):
-    symbol: str
-    value: float
-    quantity: str
-    given: bool = False  # an input: prints without zeros that nobody typed
-
-
-class _Writer:
-    """Writes the steps of a calculation."""
-
-    def __init__(self, calculation: Calculation) -> None:
-        self.system = calculation.case.inputs.units
-        self.values = _values(calculation)
-
-    def step(
-        self, name: str, result: str, formula: str, *, units: bool = True, source: str = ""
-    ) -> Equation:
-        """Return the step that gives the value called `result`.
-
-        Parameters
-        ----------
-        name : str
-            What is calculated.
-        result : str
-            Name of the value.
-        formula : str
-            Formula with names in angle brackets.
-        units : bool, optional
-            Whether the values put in carry their units; if not, they are in the units of length
-            and force of the results.
-        source : str, optional
-            Where the formula is from.
-        """
-        symbol, formula_in_symbols = self.values[result].symbol, self._with_symbols(formula)
-        values, shown = self._with_values(formula, units), self._in_tex(result, units=True)
-        lines = [values, shown] if len(values) > _LONG else [f"{values} = {shown}"]
-        if formula_in_symbols == formula:  # nothing to put in
-            lines = [formula]
-        elif re.sub(r"\\,| ", "", formula_in_symbols) != symbol.replace(" ", ""):
-            lines.insert(0, formula_in_symbols)
-        return Equation(label=f"eq-{result}", name=name, symbol=symbol, lines=lines, source=source)
-
-    def _with_symbols(self, formula: str) -> str:
-        formula = formula.replace("<x>", r"\,")
-        return re.sub(r"<(\w+)>", lambda name: self.values[name[1]].symbol, formula)
-
-    def _with_values(self, formula: str, units: bool) -> str:
-        def value(match: re.Match[str]) -> str:
-            text, power = self._in_tex(match[1], units=units), match[2]
-            grouped = power and (units or "times" in text)
-            return f"({text}){power}" if grouped else text + power
-
-        return re.sub(r"<(\w+)>(\^?)", value, formula.replace("<x>", r"\times"))
-
-    def _in_tex(self, name: str, *, units: bool) -> str:
-        _, value, quantity, given = self.values[name]
-        shown = printed(value, quantity, self.system, given=given)
-        if units:
-            return in_tex(shown)
-        text = number_in_tex(shown)
-        return f"({text})" if text.startswith("-") else text
-
-
-def _values(calculation: Calculation) -> dict[str, _Value]:
+def _values(calculation: Calculation) -> dict[str, Value]:
     column, struck, pier = calculation.case.column, calculation.struck, calculation.pier
     section, forces = column.section, struck.unit_forces
     concrete_strength = calculation.case.inputs.concrete_strength or 0.0
@@ -94,54 +28,54 @@ def _values(calculation: Calculation) -> dict[str, _Value]:
     flexure_below = struck.impact_height * squares / (3.0 * column.flexural_rigidity)
     freed, own = _freed_deflections(calculation)
     sizes = (
-        {"D": _Value("D", section.diameter, "section length", True)}
+        {"D": Value("D", section.diameter, "section length", True)}
         if isinstance(section, CircularSection)
         else {
-            "b": _Value("b", section.width, "section length", True),
-            "h": _Value("h", section.depth, "section length", True),
+            "b": Value("b", section.width, "section length", True),
+            "h": Value("h", section.depth, "section length", True),
         }
     )
     return sizes | {
-        "A": _Value("A", section.area, "area"),
-        "I": _Value("I", section.second_moment, "second moment"),
-        "kappa": _Value(r"\kappa", section.shear_coefficient, "share", True),
-        "fc": _Value(r"f_\mathrm{c}'", concrete_strength / 1e6, "ratio", True),
-        "E": _Value("E", column.elastic_modulus, "modulus", True),
-        "nu": _Value(r"\nu", column.poisson_ratio, "ratio", True),
-        "G": _Value("G", column.shear_modulus, "modulus"),
-        "EI": _Value("EI", column.flexural_rigidity, "flexural rigidity"),
-        "GA": _Value(r"\kappa GA", column.shear_rigidity, "shear rigidity"),
-        "rho": _Value(r"\rho", column.density, "density", True),
-        "m": _Value(r"\bar m", column.mass_per_length, "mass per length"),
-        "H": _Value("H", column.height, "length", True),
-        "z": _Value(r"z_\mathrm{n}", struck.impact_height, "length", True),
-        "y": _Value(r"(H - z_\mathrm{n})", column.height - struck.impact_height, "length", True),
-        "Rb": _Value(r"R_\mathrm{b}", forces.base_force, "share"),
-        "Rt": _Value(r"R_\mathrm{t}", forces.top_force, "share"),
-        "Mb": _Value(r"M_\mathrm{b}", forces.base_moment, "length"),
-        "Mn": _Value(r"M_\mathrm{n}", forces.impact_moment, "length"),
-        "Mt": _Value(r"M_\mathrm{t}", forces.top_moment, "length"),
-        "freed": _Value(r"\delta_\mathrm{n}", freed, "flexibility"),
-        "own": _Value(r"\delta_\mathrm{e}", own, "flexibility"),
-        "xf_below": _Value(r"x_\mathrm{f,b}", flexure_below, "flexibility"),
-        "xf_above": _Value(
+        "A": Value("A", section.area, "area"),
+        "I": Value("I", section.second_moment, "second moment"),
+        "kappa": Value(r"\kappa", section.shear_coefficient, "share", True),
+        "fc": Value(r"f_\mathrm{c}'", concrete_strength / 1e6, "ratio", True),
+        "E": Value("E", column.elastic_modulus, "modulus", True),
+        "nu": Value(r"\nu", column.poisson_ratio, "ratio", True),
+        "G": Value("G", column.shear_modulus, "modulus"),
+        "EI": Value("EI", column.flexural_rigidity, "flexural rigidity"),
+        "GA": Value(r"\kappa GA", column.shear_rigidity, "shear rigidity"),
+        "rho": Value(r"\rho", column.density, "density", True),
+        "m": Value(r"\bar m", column.mass_per_length, "mass per length"),
+        "H": Value("H", column.height, "length", True),
+        "z": Value(r"z_\mathrm{n}", struck.impact_height, "length", True),
+        "y": Value(r"(H - z_\mathrm{n})", column.height - struck.impact_height, "length", True),
+        "Rb": Value(r"R_\mathrm{b}", forces.base_force, "share"),
+        "Rt": Value(r"R_\mathrm{t}", forces.top_force, "share"),
+        "Mb": Value(r"M_\mathrm{b}", forces.base_moment, "length"),
+        "Mn": Value(r"M_\mathrm{n}", forces.impact_moment, "length"),
+        "Mt": Value(r"M_\mathrm{t}", forces.top_moment, "length"),
+        "freed": Value(r"\delta_\mathrm{n}", freed, "flexibility"),
+        "own": Value(r"\delta_\mathrm{e}", own, "flexibility"),
+        "xf_below": Value(r"x_\mathrm{f,b}", flexure_below, "flexibility"),
+        "xf_above": Value(
             r"x_\mathrm{f,t}", struck.flexural_deflection - flexure_below, "flexibility"
         ),
-        "xs": _Value(r"x_\mathrm{s}", struck.shear_deflection, "flexibility"),
-        "xn": _Value(r"x(z_\mathrm{n})", struck.impact_deflection, "flexibility"),
-        "kp": _Value(r"k_\mathrm{p}", pier.stiffness, "stiffness"),
-        "kp_mass": _Value(r"k_\mathrm{p}", pier.stiffness, "mass stiffness"),
-        "phi2_below": _Value(r"\int_0^{z_\mathrm{n}} \varphi^2 \, \mathrm{d}z", below, "length"),
-        "phi2_above": _Value(
+        "xs": Value(r"x_\mathrm{s}", struck.shear_deflection, "flexibility"),
+        "xn": Value(r"x(z_\mathrm{n})", struck.impact_deflection, "flexibility"),
+        "kp": Value(r"k_\mathrm{p}", pier.stiffness, "stiffness"),
+        "kp_mass": Value(r"k_\mathrm{p}", pier.stiffness, "mass stiffness"),
+        "phi2_below": Value(r"\int_0^{z_\mathrm{n}} \varphi^2 \, \mathrm{d}z", below, "length"),
+        "phi2_above": Value(
             r"\int_{z_\mathrm{n}}^H \varphi^2 \, \mathrm{d}z",
             struck.shape_integral - below,
             "length",
         ),
-        "phi2": _Value(r"\int_0^H \varphi^2 \, \mathrm{d}z", struck.shape_integral, "length"),
-        "mp": _Value(r"m_\mathrm{p}", pier.mass, "mass"),
-        "fp": _Value(r"f_\mathrm{p}", pier.frequency, "frequency"),
-        "zeta": _Value(r"\zeta", pier.damping_ratio, "ratio", True),
-        "cp": _Value(r"c_\mathrm{p}", pier.damping, "damping"),
+        "phi2": Value(r"\int_0^H \varphi^2 \, \mathrm{d}z", struck.shape_integral, "length"),
+        "mp": Value(r"m_\mathrm{p}", pier.mass, "mass"),
+        "fp": Value(r"f_\mathrm{p}", pier.frequency, "frequency"),
+        "zeta": Value(r"\zeta", pier.damping_ratio, "ratio", True),
+        "cp": Value(r"c_\mathrm{p}", pier.damping, "damping"),
     }
 
 
@@ -156,7 +90,7 @@ def _freed_deflections(calculation: Calculation) -> tuple[float, float]:
 
 def section_steps(calculation: Calculation) -> Steps:
     """Return area, rigidities and mass per length of the column."""
-    step = _Writer(calculation).step
+    step = _writer(calculation).step
     circular = isinstance(calculation.case.column.section, CircularSection)
     steps = [
         step("Area", "A", r"\frac{\pi <D>^2}{4}" if circular else "<b> <x> <h>"),
@@ -187,7 +121,7 @@ def unit_force_steps(calculation: Calculation) -> Steps:
     Force and moment at the top follow from what the top is, or from what cannot move; the
     others from equilibrium. Derived here by integrating M/EI and V/κGA over the column.
     """
-    write, column = _Writer(calculation), calculation.case.column
+    write, column = _writer(calculation), calculation.case.column
     top = [
         write.step(name, result, formula, units=False, source=source)
         for name, result, formula, source in _TOP[column.base, column.top]
@@ -271,7 +205,7 @@ _TOP = {
 
 def stiffness_steps(calculation: Calculation) -> Steps:
     """Return the deflection under the unit force, of flexure and shear, and the stiffness."""
-    step = _Writer(calculation).step
+    step = _writer(calculation).step
     return Steps(
         [
             step(
@@ -372,7 +306,7 @@ def shape_table(calculation: Calculation) -> Table:
 
 def mass_steps(calculation: Calculation) -> Steps:
     """Return equivalent mass, frequency and damping."""
-    step = _Writer(calculation).step
+    step = _writer(calculation).step
     return Steps(
         [
             step(

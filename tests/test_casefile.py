@@ -10,8 +10,6 @@ from hypothesis import strategies as st
 
 import pierimpact
 from pierimpact.casefile import (
-    KEYS,
-    PHYSICAL_KEYS,
     Case,
     case_from,
     case_from_notebook,
@@ -19,6 +17,7 @@ from pierimpact.casefile import (
     read_case,
 )
 from pierimpact.checks import InputError
+from pierimpact.inputs import KEYS, PHYSICAL_KEYS
 
 CASE = {
     "project": "Example overpass",
@@ -94,6 +93,7 @@ def test_concrete_modulus_is_near_the_form_of_the_formula_in_psi():
             "'colunm_height' is not a key of a case file; did you mean col",
         ),
         ({"Speed": "5 m"}, "'Speed' is not a key of a case file; did you mean speed?"),
+        ({"sped": None}, "'sped' is not a key of a case file; did you mean speed?"),
         ({5: "5 m"}, "5 is not a key of a case file"),
         ({"speed": None}, "speed is missing"),
         ({"density": None, "speed": None}, "density is missing"),

@@ -1,0 +1,72 @@
+"""Text and mathematics, written as HTML and as Typst.
+
+Mathematics is LaTeX in both, between marks that the exporters replace (JupyterLab typesets those
+of the HTML by itself). Text is never markup: it is escaped in HTML, and is a string literal in
+Typst.
+"""
+
+import html
+from dataclasses import dataclass
+
+from pierimpact.units import Printed
+
+
+@dataclass(frozen=True)
+class Tex:
+    """Inline mathematics in LaTeX."""
+
+    source: str
+
+
+@dataclass(frozen=True)
+class Code:
+    """Text to be typed or compared letter by letter."""
+
+    text: str
+
+
+Piece = str | Tex | Code
+Inline = Piece | tuple[Piece, ...]  #: one piece of text, or a run of them
+
+
+def to_html(inline: Inline) -> str:
+    """Return text and mathematics as HTML."""
+    if isinstance(inline, tuple):
+        return "".join(map(to_html, inline))
+    if isinstance(inline, Tex):
+        return rf'<span class="math">\({html.escape(inline.source)}\)</span>'
+    if isinstance(inline, Code):
+        return f"<code>{html.escape(inline.text)}</code>"
+    return html.escape(inline)
+
+
+def to_typst(inline: Inline) -> str:
+    """Return text and mathematics as Typst markup."""
+    if isinstance(inline, tuple):
+        return "".join(map(to_typst, inline))
+    if isinstance(inline, Tex):
+        return f"#tex({typst_string(inline.source)});"
+    if isinstance(inline, Code):
+        return f"#raw({typst_string(inline.text)});"
+    return f"#{typst_string(inline)};"
+
+
+def typst_string(text: str) -> str:
+    """Return `text` as a Typst string literal: nothing in it can act as markup."""
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
+
+
+def in_tex(value: Printed) -> str:
+    """Return a printed value with its unit as LaTeX."""
+    return number_in_tex(value) + (rf"\ \text{{{value.unit}}}" if value.unit else "")
+
+
+def number_in_tex(value: Printed) -> str:
+    """Return a printed value without its unit as LaTeX."""
+    mantissa, times, power = value.number.partition("×10")
+    number = mantissa.replace("−", "-").replace("\u202f", r"\,")
+    return rf"{number} \times 10^{{{power.translate(_PLAIN_DIGITS)}}}" if times else number
+
+
+_PLAIN_DIGITS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")

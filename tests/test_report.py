@@ -1,0 +1,385 @@
+"""The report from end to end, on a case in SI units and one in US units full of nasty text."""
+
+import base64
+import html
+import json
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+from pathlib import Path
+
+import nbformat
+import papermill
+import pypdf
+import pytest
+import yaml
+
+from pierimpact import report as report_module
+from pierimpact.calculation import calculate
+from pierimpact.casefile import read_case
+from pierimpact.checks import InputError
+from pierimpact.report import ReportError, report_notebook, write_report
+from pierimpact.units import printed
+
+EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
+NASTY = (
+    r"""<b>&amp; #let x = $y$ @ref \ "q" 's' `code` *b* _i_ //x [l](u) ~ = {{x}} ((* x *)) """
+    r"""((= x =)) \(z\) <script>alert(1)</script> <!-- Мост Ελλάδα"""
+)
+US_CASE = {
+    "project": NASTY,
+    "job_number": "0042",
+    "element": r"P<3> & $x_1$ \frac{1}{2}",
+    "prepared_by": "Ł & ø",
+    "checked_by": "#pagebreak()",
+    "revision": "<B>",
+    "date": "2026-03-01",
+    "column_shape": "rectangular",
+    "column_width": "4 ft",
+    "column_depth": "36 in",
+    "column_height": "16.5 ft",
+    "concrete_strength": "4 ksi",
+    "density": "150 lb/ft^3",
+    "base": "fixed",
+    "top": "fixed",
+    "truck": "single-unit-8t",
+    "truck_mass": "36000 lb",
+    "speed": "55 mph",
+    "impact_height": "auto",
+    "damping_ratio": 0.03,
+    "units": "US",
+    "shear_resistance": "3000 kip",
+    "moment_resistance": "2500 kip*ft",
+    "sources": {"column_width": NASTY},
+    "assumed": {"density": NASTY},
+    "notes": [NASTY],
+}
+
+
+class Text(HTMLParser):
+    """What a page shows, what it refers to, and the tags it is made of."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.shown, self.references, self.tags, self._open = [], [], [], []
+        self.feed(page)
+        self.text = re.sub(r"\s+", " ", "".join(self.shown))
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+        self.references += [
+            value for name, value in attributes if name in ("src", "href", "srcset", "action")
+        ]
+        self._open = [*self._open, tag] if tag in ("style", "script", "title") else self._open
+
+    def handle_endtag(self, tag):
+        self._open = [other for other in self._open if other != tag]
+
+    def handle_data(self, data):
+        if not self._open:
+            self.shown.append(data)
+
+
+def pdf_text(path):
+    return [page.extract_text() for page in pypdf.PdfReader(path).pages]
+
+
+def squeezed(text):
+    """Return text without the spaces that a PDF adds or drops at the ends of lines."""
+    return re.sub(r"\s+", "", text)
+
+
+@pytest.fixture(scope="module")
+def si(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("si")
+    case = folder / "tti-column.yaml"
+    case.write_text(EXAMPLE.read_text("utf-8") + "date: 2026-02-03\n", encoding="utf-8")
+    return case, write_report(case, folder / "out", progress=False)
+
+
+@pytest.fixture(scope="module")
+def us(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("us")
+    case = folder / "us.yaml"
+    case.write_text(yaml.safe_dump(US_CASE, allow_unicode=True), encoding="utf-8")
+    return case, write_report(case, folder / "out", progress=False)
+
+
+@pytest.fixture(params=["si", "us"])
+def made(request):
+    return request.getfixturevalue(request.param)
+
+
+def test_three_files_and_nothing_else(made):
+    case, files = made
+    names = {f"{case.stem}.{ending}" for ending in ("ipynb", "html", "pdf")}
+    assert {path.name for path in files.pdf.parent.iterdir()} == names
+    assert files.warnings == []
+
+
+def test_the_peaks_of_the_calculation_are_printed(made):
+    case, files = made
+    result = calculate(read_case(case))
+    history, system = result.history, result.case.inputs.units
+    page, sheet = Text(files.html.read_text("utf-8")).text, " ".join(pdf_text(files.pdf))
+    for peak in (history.engine_peak, history.cargo_peak):
+        for value, quantity in ((peak.reaction, "force"), (peak.time, "time")):
+            number = printed(value, quantity, system).number
+            assert number in page
+            assert number in sheet
+    for value, quantity in (
+        (result.pier.stiffness, "stiffness"),
+        (result.pier.mass, "mass"),
+        (result.pier.frequency, "frequency"),
+    ):
+        assert squeezed(printed(value, quantity, system).number) in squeezed(page)
+
+
+def test_the_same_bytes_twice(si, tmp_path):
+    case, files = si
+    again = write_report(case, tmp_path, progress=False)
+    assert again.html.read_bytes() == files.html.read_bytes()
+    assert again.pdf.read_bytes() == files.pdf.read_bytes()
+
+
+def test_papermill_alone_gives_the_same_sheet(us, tmp_path):
+    case, files = us
+    output = tmp_path / "out.ipynb"
+    papermill.execute_notebook(
+        report_notebook(), output, yaml.safe_load(case.read_text("utf-8")), progress_bar=False
+    )
+
+    def sheet(path):
+        return [
+            out.data["text/html"]
+            for cell in nbformat.read(path, 4).cells
+            for out in cell.get("outputs", [])
+            if "data" in out
+        ]
+
+    alone, whole = sheet(output), sheet(files.notebook)
+    assert alone[:-1] == whole[:-1]
+    assert "not recorded" in alone[-1]  # only papermill knows the case file
+    assert case.name in whole[-1]
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({"sped": "55 mph"}, "'sped' is not a key of a case file; did you mean speed?"),
+        ({"speed": "55"}, "speed must have a unit"),
+    ],
+)
+def test_papermill_alone_finds_bad_parameters(tmp_path, parameters, message):
+    with pytest.raises(papermill.PapermillExecutionError, match=re.escape(message)):
+        papermill.execute_notebook(
+            report_notebook(), tmp_path / "o.ipynb", US_CASE | parameters, progress_bar=False
+        )
+
+
+def test_the_page_asks_for_nothing(made):
+    page = Text(made[1].html.read_text("utf-8"))
+    assert page.references
+    for reference in page.references:
+        assert reference.startswith(("#", "data:"))
+    assert "url(" not in made[1].html.read_text("utf-8")
+    assert not [tag for tag, _ in page.tags if tag in ("script", "link", "iframe")]
+
+
+BROWSER = """
+    chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run
+    --disable-background-networking --disable-component-update --disable-sync --dump-dom
+"""
+
+
+def requested_by(page, folder):
+    """Return the addresses that a page, and not the browser on its own, asks for."""
+    log = folder / "net.json"
+    options = [f"--user-data-dir={folder / 'profile'}", f"--log-net-log={log}"]
+    done = subprocess.run(
+        [*BROWSER.split(), *options, page.as_uri()],
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+        timeout=120,
+    )
+    assert "Summary" in done.stdout
+    events = (event.get("params", {}) for event in json.loads(log.read_text("utf-8"))["events"])
+    return {
+        event["url"]
+        for event in events
+        if event.get("initiator", "not an origin") != "not an origin"
+    }
+
+
+@pytest.mark.skipif(
+    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
+)
+def test_a_browser_makes_no_request(us, tmp_path):
+    assert requested_by(us[1].html, tmp_path) == set()
+    asking = tmp_path / "asking.html"
+    image = "http://127.0.0.1:9/x.png"
+    asking.write_text(f"<p>Summary <img src='{image}'></p>")
+    assert requested_by(asking, tmp_path) == {image}
+
+
+def test_mathematics_is_mathml_and_nothing_is_left_raw(si):
+    text = si[1].html.read_text("utf-8")
+    page = Text(text)
+    assert sum(tag == "math" for tag, _ in page.tags) > 60
+    for left in ("$", "\\", "{", "}", "text(", "frac"):
+        assert left not in page.text
+    sheet = " ".join(pdf_text(si[1].pdf))
+    for left in ("$", "\\", "{", "}", "#", "frac", "tex("):
+        assert left not in sheet
+
+
+def test_no_code_is_shown(made):
+    for text in (
+        Text(made[1].html.read_text("utf-8")).text,
+        " ".join(pdf_text(made[1].pdf)),
+    ):
+        assert "import " not in text
+        assert "calculation)" not in text
+
+
+def test_text_from_users_prints_as_typed(us):
+    _, files = us
+    page = Text(files.html.read_text("utf-8"))
+    # In the title block, in both tables of sources and among the notes.
+    assert squeezed(page.text).count(squeezed(NASTY)) == 4
+    assert not [tag for tag, _ in page.tags if tag in ("b", "script")]
+    sheet = squeezed("".join(pdf_text(files.pdf)))
+    for text in (US_CASE["element"], US_CASE["prepared_by"], US_CASE["checked_by"], "<B>"):
+        assert squeezed(text) in squeezed(page.text)
+        assert squeezed(text) in sheet
+    assert squeezed(NASTY) in sheet
+
+
+def test_every_page_says_whose_it_is_and_which(made):
+    case, files = made
+    inputs = read_case(case).inputs
+    pages = pdf_text(files.pdf)
+    assert len(pages) > 3
+    for number, text in enumerate(pages, 1):
+        for entry in (inputs.project[:30], inputs.job_number, inputs.element, inputs.revision):
+            assert squeezed(entry) in squeezed(text)
+        assert str(inputs.date) in text
+        assert f"Page {number} of {len(pages)}" in text
+
+
+def test_numbers_of_equations_tables_and_figures(made):
+    text = made[1].html.read_text("utf-8")
+    sheet = "".join(pdf_text(made[1].pdf))
+    for kind in ("Table", "Figure"):
+        numbers = re.findall(rf"{kind}&nbsp;(\d+)\.</span>", text)
+        assert numbers == [str(n) for n in range(1, len(numbers) + 1)]
+        assert re.findall(rf"{kind} (\d+)\. ", sheet) == numbers
+    equations = re.findall(r'class="number">\((\d+)\)<', text)
+    assert equations == [str(n) for n in range(1, len(equations) + 1)]
+    assert len(equations) > 20
+    found = [n for n in re.findall(r"\((\d+)\)\s*$", sheet, re.MULTILINE) if n in equations]
+    assert found[-1] == equations[-1] or f"({equations[-1]})" in sheet
+    assert f"({len(equations) + 1})" not in sheet
+
+
+def test_figures_are_vectors_with_words_for_them(made):
+    page = Text(made[1].html.read_text("utf-8"))
+    images = [attributes for tag, attributes in page.tags if tag == "img"]
+    assert images
+    for image in images:
+        assert "peak is" in image["alt"]
+        kind, _, data = image["src"].partition(";base64,")
+        assert kind == "data:image/svg+xml"
+        assert b"<image" not in base64.b64decode(data)
+    assert [image for page in pypdf.PdfReader(made[1].pdf).pages for image in page.images] == []
+
+
+def test_the_page_has_landmarks_and_table_heads(made):
+    tags = Text(made[1].html.read_text("utf-8")).tags
+    assert [tag for tag, _ in tags].count("main") == 1
+    assert [tag for tag, _ in tags].count("h1") == 1
+    heads = [attributes for tag, attributes in tags if tag == "th"]
+    assert heads
+    assert {attributes["scope"] for attributes in heads} == {"col", "row"}
+    assert dict(tags)["html"] == {"lang": "en"}
+
+
+def test_the_pdf_says_what_it_conforms_to(made):
+    reader = pypdf.PdfReader(made[1].pdf)
+    metadata = reader.xmp_metadata.stream.get_data().decode()
+    assert re.search(r"pdfaid:part>2<", metadata)
+    assert re.search(r"pdfuaid:part>1<", metadata)
+    fonts = {
+        font["/BaseFont"]
+        for page in reader.pages
+        for font in (entry.get_object() for entry in page["/Resources"]["/Font"].values())
+    }
+    # All of them embedded in Typst or shipped with matplotlib, none of the system.
+    assert {re.sub(r"^/[A-Z]{6}\+|-.*", "", font) for font in fonts} <= {
+        "LibertinusSerif",
+        "NewCMMath",
+        "DejaVuSans",
+        "DejaVuSansMono",
+    }
+
+
+def test_assumptions_and_the_status_of_the_truck_are_in_sight(si):
+    text = html.unescape(Text(si[1].html.read_text("utf-8")).text)
+    summary = text[: text.index("Basis")]
+    assert "single-unit-8t is illustrative" in summary
+    assert "not Table 1 of the source paper" in summary
+    assert "not a prediction of the tests" in summary
+    assert "Assumed, not given by any source" in summary
+    assert "column height" in summary
+
+
+def test_a_bad_case_writes_nothing(tmp_path):
+    case = tmp_path / "case.yaml"
+    case.write_text("speed: 80\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"^case\.yaml: "):
+        write_report(case, tmp_path / "out", progress=False)
+    assert [path.name for path in tmp_path.iterdir()] == ["case.yaml"]
+
+
+def test_a_folder_that_cannot_be(si, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="cannot be written to"):
+        write_report(si[0], tmp_path / "file", progress=False)
+
+
+def test_a_failing_notebook_is_kept_and_named(si, tmp_path, monkeypatch):
+    notebook = nbformat.read(report_notebook(), 4)
+    notebook.cells[-1].source = "raise ValueError('the last cell')"
+    broken = tmp_path / "broken.ipynb"
+    nbformat.write(notebook, broken)
+    monkeypatch.setattr(report_module, "report_notebook", lambda: broken)
+    before = tmp_path / "out" / "tti-column.pdf"
+    before.parent.mkdir()
+    before.write_bytes(b"of the last time")
+    with pytest.raises(ReportError, match="ValueError: the last cell") as caught:
+        write_report(si[0], tmp_path / "out", progress=False)
+    kept = tmp_path / "out" / "tti-column.failed.ipynb"
+    assert str(kept) in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert sorted(before.parent.iterdir()) == [kept, before]
+    assert before.read_bytes() == b"of the last time"
+    assert nbformat.read(kept, 4).cells[-1].outputs[0].ename == "ValueError"
+
+
+def test_a_failing_conversion_leaves_no_half_report(si, tmp_path, monkeypatch):
+    templates = tmp_path / "templates"
+    shutil.copytree(Path(__file__).parent.parent / "templates", templates)
+    (templates / "pierimpact-pdf" / "index.typ.j2").write_text("#nonsense")
+    monkeypatch.setattr("pierimpact.exporters.templates_folder", lambda: templates)
+    with pytest.raises(ReportError, match="unknown variable: nonsense"):
+        write_report(si[0], tmp_path / "out", progress=False)
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["tti-column.failed.ipynb"]
+
+
+def test_the_stored_notebook_has_no_outputs():
+    for path in EXAMPLE.parent.glob("*.ipynb"):
+        for cell in nbformat.read(path, 4).cells:
+            if cell.cell_type == "code":
+                assert (cell.outputs, cell.execution_count) == ([], None)
