@@ -189,7 +189,7 @@ def peaks_table(calculation: Calculation) -> Block:
             Column(heading=""),
             Column(heading=f"Contact after [{time}]", align="decimal"),
             Column(heading=f"Peak reaction [{force}]", align="decimal"),
-            Column(heading=f"after [{time}]", align="decimal"),
+            Column(heading=f"Peak after [{time}]", align="decimal"),
             Column(heading=""),
         ],
         rows=rows,

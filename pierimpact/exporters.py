@@ -135,7 +135,8 @@ class SheetHTMLExporter(_SheetExporter):
         ]
 
     def _formula(self, match: re.Match[str], converted: str) -> str:
-        return converted.removeprefix("<p>").removesuffix("</p>")
+        formula = converted.removeprefix("<p>").removesuffix("</p>")
+        return f'<div class="math">{formula}</div>' if match[2] else formula
 
 
 def _numbered(page: str) -> str:
