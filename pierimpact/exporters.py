@@ -21,8 +21,8 @@ from nbformat import NotebookNode
 from pypandoc import get_pandoc_path
 from traitlets import default
 
-from pierimpact.markup import typst_string
-from pierimpact.sheet import SHEET_MIME, TYPST_MIME
+from pierimpact.sheet.blocks import SHEET_MIME, TYPST_MIME
+from pierimpact.sheet.markup import typst_string
 
 _PACKAGE = Path(__file__).parent
 _MARKDOWN = "markdown-citations-yaml_metadata_block"

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pierimpact.markup import Inline, to_html, to_typst, typst_string
+from pierimpact.sheet.markup import Inline, to_html, to_typst, typst_string
 from pierimpact.units import Printed
 
 #: MIME type of what running headers, document properties and paper size need to know.
