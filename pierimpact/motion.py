@@ -345,9 +345,8 @@ def first_change(
         if not some(near | turns | wavers):
             continue
         wavers = wavers & negate(over) & _lost_between(rate, second, rate_h, second_h, h, ops)
-        # A quantity that rises and falls within the step was over zero in between unless the
-        # tangents at both ends meet below zero.
-        humps = turns & negate(over) & (_meeting(g, rate, g_h, rate_h, h, turns, ops) > TOLERANCE)
+        highest = _crest(start, end, h, turns, ops)
+        humps = turns & negate(over) & (highest > TOLERANCE)
         # What starts on its bound and moves on is due at once. Friction that has just let go is
         # not: it starts with no relative velocity, nor acceleration but for round-off.
         leaves = g > TOLERANCE if which in (FORWARD, BACKWARD) else rate > TOLERANCE
@@ -369,9 +368,19 @@ def first_change(
     return event, sooner
 
 
-def _meeting(g: Real, rate: Real, g_h: Real, rate_h: Real, h: Real, counts: Flag, ops: Ops) -> Real:
-    """Return where the tangents at both ends of a step meet; only where it `counts`."""
-    return g + rate * (g_h - g - rate_h * h) / ops.where(counts, rate - rate_h, 1.0)
+def _crest(start: Watched, end: Watched, h: Real, turns: Flag, ops: Ops) -> Real:
+    """Return how high a quantity may be between the ends of a step; only where it `turns`.
+
+    Where it is concave at both ends its tangents meet above it; where at one end only, that
+    end's parabola tells, with half of its rise added for prudence.
+    """
+    where = ops.where
+    (g, rate, second), (g_h, rate_h, second_h) = start, end
+    meet = g + rate * (g_h - g - rate_h * h) / where(turns, rate - rate_h, 1.0)
+    falls, falls_h = second < 0.0, second_h < 0.0
+    left = where(falls, g - 0.75 * rate**2 / where(falls, second, 1.0), FAR)
+    right = where(falls_h, g_h - 0.75 * rate_h**2 / where(falls_h, second_h, 1.0), left)
+    return where(falls & falls_h, meet, right)
 
 
 def _lost_between(
@@ -380,28 +389,31 @@ def _lost_between(
     """Say whether a rate of one sign at both ends may have had the other in between.
 
     The mark of it is that the rate first makes for zero and at last away from it, and that its
-    tangents meet beyond zero.
+    tangents meet beyond zero, or not far from it.
     """
     differs = second != second_h
     meeting = rate + second * (rate_h - rate - second_h * h) / ops.where(
         differs, second - second_h, 1.0
     )
-    return differs & (rate * meeting < 0.0)
+    closer = (rate * (2.0 * meeting - rate) < 0.0) & (rate * (2.0 * meeting - rate_h) < 0.0)
+    return differs & closer
 
 
 def crossing(g: Real, rate: Real, g_h: Real, rate_h: Real, h: Real, ops: Ops) -> Real:
     """Estimate where a quantity that is negative at 0 and positive at `h` crosses zero.
 
-    Inverse cubic interpolation on values and rates, or the chord where that would not be
-    monotone.
+    Inverse cubic interpolation on values and rates; where that would not be monotone, the
+    tangent at `h` or the chord, whichever is beyond the crossing if the rate only grows or falls.
     """
     where = ops.where
+    mean = (g_h - g) / h
     r = -g / (g_h - g)
-    slope = (g_h - g) / (3.0 * h)
-    cubic = (rate > slope) & (rate_h > slope)
+    cubic = (3.0 * rate > mean) & (3.0 * rate_h > mean)
     shift = (1.0 - r) / where(cubic, rate, 1.0) - r / where(cubic, rate_h, 1.0)
     curved = h * r * r * (3.0 - 2.0 * r) + (g_h - g) * r * (1.0 - r) * shift
-    return where(cubic & (curved < h), curved, r * h)
+    gathers = rate_h > mean
+    straight = where(gathers, h - g_h / where(gathers, rate_h, 1.0), r * h)
+    return where(cubic & (curved < h), curved, straight)
 
 
 def advance(
