@@ -113,6 +113,7 @@ class Collision:
         self.on_pier = truck.friction_on == "pier"
         self.slip, self.slip_rate = (X2 - XP, V2 - VP) if self.on_pier else (X2, V2)
         self.friction = "forward" if self.c_s else "none"  # or "backward", "stuck"
+        self.pier_advances = True
         self.resistance = pier.stiffness * XP + pier.damping * VP
         self.momentum, self.energy = truck.mass * speed, 0.5 * truck.mass * speed**2
         moving = pier.mass + self.on_pier * truck.body_mass
@@ -157,6 +158,7 @@ class Collision:
             if self.on_pier:  # crushing and sliding end together: one event, not two
                 body = [way for way in body if way[0] is not self.body.rate]
         return [
+            (VP, -1 if self.pier_advances else 1, "turn", "pier"),
             *((*way, "engine") for way in self.engine.exits()),
             *((*way, "body") for way in body),
             *((*way, "friction") for way in slips),
@@ -164,41 +166,49 @@ class Collision:
 
     def advance(self, rtol: float) -> None:
         """Integrate to the end of the regime, or for one period of the pier."""
-        system, exits, start = self.system(), self.exits(), self.y
+        system, exits, start, begin = self.system(), self.exits(), self.y, self.time
 
         def motion(_time: float, y: Row) -> Row:
             rate: Row = system @ y
             rate[7] = self.pier.damping * y[5] ** 2
             return rate
 
-        stand = crossing(VP, -1, terminal=False)
-        run = solve_ivp(
-            motion,
-            (self.time, self.time + self.period),
-            start,
-            method="DOP853",
-            events=[*(crossing(row, way, terminal=True) for row, way, *_ in exits), stand],
-            rtol=rtol,
-            atol=1e-3 * rtol * self.size,
-        )
+        def integrate(end: float) -> Any:
+            events = [crossing(row, way, begin) for row, way, *_ in exits]
+            # Two crossings within a step would go unseen, but not the turning point in between.
+            turns = [crossing(row @ system, -way) for row, way, *_ in exits]
+            atol = 1e-3 * rtol * self.size
+            return solve_ivp(
+                motion, (begin, end), start, "DOP853", events=events + turns, rtol=rtol, atol=atol
+            )
+
+        run = integrate(begin + self.period)
+        missed = [
+            time
+            for i, (row, way, *_) in enumerate(exits)
+            for time, y in zip(*(found[len(exits) + i] for found in (run.t_events, run.y_events)))
+            if way * (row @ y) > 0 and begin < time < run.t[-1]
+        ]
+        if missed:
+            run = integrate(min(missed))
         self.time, self.y = float(run.t[-1]), run.y[:, -1]
         for spring in (self.engine, self.body):
             spring.largest = max(spring.largest, float(spring.crush @ self.y))
         if self.friction in ("forward", "backward"):
             self.rubbed += self.c_s * abs(self.slip @ (self.y - start))
 
-        x_p = np.concatenate([run.y[4], *(y[4:5] for y in run.y_events[-1])])
-        times = np.concatenate([run.t, run.t_events[-1]])
-        phase, top = 0 if math.isnan(self.body.hit) else 1, np.argmax(x_p)
-        self.peaks[phase] = max(
-            self.peaks[phase], (float(self.pier.stiffness * x_p[top]), float(times[top]))
-        )
+        phase, top = 0 if math.isnan(self.body.hit) else 1, np.argmax(run.y[4])
+        reaction = float(self.pier.stiffness * run.y[4, top])
+        self.peaks[phase] = max(self.peaks[phase], (reaction, float(run.t[top])))
         if run.status == 1:
             self.change(*next(exits[i][2:] for i, t in enumerate(run.t_events) if len(t)))
         self.balance()
 
     def change(self, after: str, whose: str) -> None:
         """Enter the next regime."""
+        if whose == "pier":
+            self.pier_advances = not self.pier_advances
+            return
         self.changes.append((self.time, f"{whose} {after}"))
         if whose == "engine":
             self.engine.enter(after, self.time)
@@ -265,13 +275,17 @@ class Collision:
         self.errors = np.maximum(self.errors, errors)
 
 
-def crossing(row: Row, direction: int, *, terminal: bool) -> Any:
-    """Event of `solve_ivp`: the row times the state passes zero."""
+def crossing(row: Row, direction: int, begin: float | None = None) -> Any:
+    """Event of `solve_ivp`: the row times the state passes zero.
 
-    def value(_time: float, y: Row) -> float:
-        return float(row @ y)
+    With the time at which its regime begins the event ends the regime, and counts as not yet
+    passed at that time: there the state often sits on the boundary, but for rounding.
+    """
 
-    value.direction, value.terminal = direction, terminal  # type: ignore[attr-defined]
+    def value(time: float, y: Row) -> float:
+        return -direction if time == begin else float(row @ y)
+
+    value.direction, value.terminal = direction, begin is not None  # type: ignore[attr-defined]
     return value
 
 
