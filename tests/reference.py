@@ -173,24 +173,29 @@ class Collision:
             rate[7] = self.pier.damping * y[5] ** 2
             return rate
 
+        events = [crossing(row, way, begin) for row, way, *_ in exits]
+        # Two crossings within a step would go unseen, but not the turning point in between.
+        turns = [crossing(row @ system, -way) for row, way, *_ in exits]
+
         def integrate(end: float) -> Any:
-            events = [crossing(row, way, begin) for row, way, *_ in exits]
-            # Two crossings within a step would go unseen, but not the turning point in between.
-            turns = [crossing(row @ system, -way) for row, way, *_ in exits]
-            atol = 1e-3 * rtol * self.size
+            span, atol = (begin, end), 1e-3 * rtol * self.size
             return solve_ivp(
-                motion, (begin, end), start, "DOP853", events=events + turns, rtol=rtol, atol=atol
+                motion, span, start, "DOP853", events=events + turns, rtol=rtol, atol=atol
             )
 
         run = integrate(begin + self.period)
-        missed = [
-            time
-            for i, (row, way, *_) in enumerate(exits)
-            for time, y in zip(*(found[len(exits) + i] for found in (run.t_events, run.y_events)))
-            if way * (row @ y) > 0 and begin < time < run.t[-1]
-        ]
-        if missed:
-            run = integrate(min(missed))
+        overlooked = []
+        for i, event in enumerate(events):
+            if len(run.t_events[i]) == 0:
+                times = [*run.t_events[i + len(events)], run.t[-1]]
+                states = [*run.y_events[i + len(events)], run.y[:, -1]]
+                overlooked += [
+                    t
+                    for t, y in zip(times, states, strict=True)
+                    if event.direction * event(t, y) > 0
+                ]
+        if overlooked:
+            run = integrate(min(overlooked))
         self.time, self.y = float(run.t[-1]), run.y[:, -1]
         for spring in (self.engine, self.body):
             spring.largest = max(spring.largest, float(spring.crush @ self.y))
@@ -198,8 +203,10 @@ class Collision:
             self.rubbed += self.c_s * abs(self.slip @ (self.y - start))
 
         phase, top = 0 if math.isnan(self.body.hit) else 1, np.argmax(run.y[4])
-        reaction = float(self.pier.stiffness * run.y[4, top])
-        self.peaks[phase] = max(self.peaks[phase], (reaction, float(run.t[top])))
+        reaction, peak = float(self.pier.stiffness * run.y[4, top]), self.peaks[phase][0]
+        if reaction > peak:  # an undamped pier swings as far again, but for rounding
+            first = reaction > peak * (1 + 1e-11)
+            self.peaks[phase] = (reaction, float(run.t[top]) if first else self.peaks[phase][1])
         if run.status == 1:
             self.change(*next(exits[i][2:] for i, t in enumerate(run.t_events) if len(t)))
         self.balance()
@@ -276,14 +283,15 @@ class Collision:
 
 
 def crossing(row: Row, direction: int, begin: float | None = None) -> Any:
-    """Event of `solve_ivp`: the row times the state passes zero.
+    """Event of `solve_ivp`: the row times the state passes zero, by more than rounding.
 
     With the time at which its regime begins the event ends the regime, and counts as not yet
     passed at that time: there the state often sits on the boundary, but for rounding.
     """
+    rounding = direction * 1e-15 * np.abs(row)
 
     def value(time: float, y: Row) -> float:
-        return -direction if time == begin else float(row @ y)
+        return -direction if time == begin else float(row @ y - rounding @ np.abs(y))
 
     value.direction, value.terminal = direction, begin is not None  # type: ignore[attr-defined]
     return value
