@@ -14,7 +14,6 @@ from pierimpact.motion import OUTCOMES, Law, State, follow, follow_all
 from pierimpact.pier import EquivalentPier
 from pierimpact.truck import Truck
 
-
 SHORTEST = 1e-13  # step worth a place in the history; shorter ones are round-off [s]
 
 
