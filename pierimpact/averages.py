@@ -47,7 +47,7 @@ def largest_average_force(history: CollisionHistory, window: float) -> AverageFo
         When the window is not positive, or longer than the history.
     """
     window = positive("window", window)
-    time, force, impulse = history.time, history.contact_force, _impulse(history)
+    time, force, impulse = history.time, history.contact_force, history.impulse
     end = float(time[-1])
     if window > end:
         raise InputError(f"window must be at most the history's {end:g} s, got {window:g}")
@@ -70,16 +70,6 @@ def largest_average_force(history: CollisionHistory, window: float) -> AverageFo
         gained = _at(start + window, time, impulse, force) - _at(start, time, impulse, force)
         found = max(found, AverageForce(float(gained) / window, float(start)))
     return found
-
-
-def _impulse(history: CollisionHistory) -> Array:
-    """Return the impulse on the pier at the history's times [N s]."""
-    pier, x, v = history.pier, history.pier_displacement, history.pier_velocity
-    steps = np.diff(history.time)
-    # The trapezium with its end correction: exact for a cubic.
-    areas = 0.5 * steps * (x[1:] + x[:-1]) - steps**2 / 12.0 * np.diff(v)
-    area = np.concatenate(([0.0], np.cumsum(areas)))
-    return pier.mass * v + pier.damping * x + pier.stiffness * area
 
 
 def _at(t: Array | float, time: Array, impulse: Array, force: Array) -> Array:
