@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 FRAMES = 201
 WIDTH, HEIGHT = 720.0, 294.0
 GROUND = 262.0
-PIER_FACE = 430.0
+PIER_FACE = 410.0
 SCALE = 41.0  # pixels a metre, in all but the pier's movement
 TALLEST = 5.05  # of the column, above which it is cut off [m]
 PAD = 5.0  # thickness of a spring crushed flat [px]
@@ -56,6 +56,8 @@ class Animation:
     def __init__(self, strike: Strike) -> None:
         self.strike = strike
         self.times = np.linspace(0.0, float(strike.history.time[-1]), FRAMES)
+        for moment in _moments(strike):  # each has a frame of its own, to the instant
+            self.times[self.index(moment)] = moment
 
     @cached_property
     def _frames(self) -> Array:
@@ -257,6 +259,15 @@ class Animation:
             f'<path d="M{start:.1f} {y:.1f}H{end + barb:.1f}" stroke="{INK}" stroke-width="3.5"/>'
             f'<path d="M{end:.1f} {y:.1f}l{1.4 * barb:.1f} -5.5v11z" fill="{INK}"/>'
         )
+
+
+def _moments(strike: Strike) -> list[float]:
+    """Return the instants of the contacts and peaks [s]."""
+    history = strike.history
+    peaks = (history.engine_peak, history.cargo_peak)
+    moments = [history.engine_contact_time, history.cargo_contact_time]
+    moments += [peak.time for peak in peaks if peak is not None]
+    return [moment for moment in moments if moment is not None]
 
 
 def _free_crush(spring: CrushSpring, crush: Array) -> Array:

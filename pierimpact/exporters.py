@@ -21,8 +21,8 @@ from nbformat import NotebookNode
 from pypandoc import get_pandoc_path
 from traitlets import default
 
-from pierimpact.markup import typst_string
-from pierimpact.sheet import SHEET_MIME, TYPST_MIME
+from pierimpact.sheet.blocks import SHEET_MIME, TYPST_MIME
+from pierimpact.sheet.markup import typst_string
 
 _PACKAGE = Path(__file__).parent
 _MARKDOWN = "markdown-citations-yaml_metadata_block"
@@ -135,7 +135,8 @@ class SheetHTMLExporter(_SheetExporter):
         ]
 
     def _formula(self, match: re.Match[str], converted: str) -> str:
-        return converted.removeprefix("<p>").removesuffix("</p>")
+        formula = converted.removeprefix("<p>").removesuffix("</p>")
+        return f'<div class="math">{formula}</div>' if match[2] else formula
 
 
 def _numbered(page: str) -> str:

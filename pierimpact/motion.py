@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 Real: TypeAlias = Any  # a float, or an array of shape (n,)
 Flag: TypeAlias = Any  # a bool, or an array of shape (n,)
-Watched: TypeAlias = tuple[Real, Real]  # a quantity [-] and its rate [1/s]
+Watched: TypeAlias = tuple[Real, Real, Real]  # a quantity [-], its rate, and the rate's rate
 
 FREE, ELASTIC, PLATEAU, STEEP = range(4)
 
@@ -260,20 +260,23 @@ NONE = -1
 
 
 def watch(case: Collision, state: State, law: Law, at: Position, ops: Ops) -> list[Watched]:
-    """Return the watched quantities [-] and their rates [1/s]."""
+    """Return the watched quantities [-], their rates [1/s] and the rates' rates [1/s²]."""
     where = ops.where
     a1, a2, ap = accelerations(law, at)
+    f1, f2 = law.s1 * at.u1, law.s2 * at.u2
+    jp = law.wp * (f1 + law.gamma * f2) - law.b * at.vp - law.c * ap
+    j1, j2 = -law.w1 * f1 - jp, -law.w2 * f2 - law.gamma * jp
     V = case.speed
     watched = []
-    for spring, line, d, u, a in (
-        (case.engine, state.engine, at.d1, at.u1, a1),
-        (case.body, state.body, at.d2, at.u2, a2),
+    for spring, line, d, u, a, jerk in (
+        (case.engine, state.engine, at.d1, at.u1, a1, j1),
+        (case.body, state.body, at.d2, at.u2, a2, j2),
     ):
         length = spring.plateau_length
         loading = line.regime >= PLATEAU
-        watched.append(((d - line.upper) / length, u / length))
-        watched.append(((line.lower - d) / length, -u / length))
-        watched.append((where(loading, -u / V, -1.0), where(loading, -a / V, 0.0)))
+        watched.append(((d - line.upper) / length, u / length, a / length))
+        watched.append(((line.lower - d) / length, -u / length, -a / length))
+        watched.append((where(loading, -u / V, -1.0), where(loading, -a / V, 0.0), -jerk / V))
 
     # Sliding ends where the relative velocity would reverse; sticking ends where the force that
     # holds the body exceeds c_s, forward or backward.
@@ -281,16 +284,16 @@ def watch(case: Collision, state: State, law: Law, at: Position, ops: Ops) -> li
     slides, sticks = acts & (state.slip != 0.0), acts & state.stuck
     relative = -state.slip * (at.u2 + where(case.on_pier, 0.0, at.vp)) / V
     relative_rate = -state.slip * (a2 + where(case.on_pier, 0.0, ap)) / V
+    relative_second = -state.slip * (j2 + where(case.on_pier, 0.0, jp)) / V
     inertia = where(case.on_pier, case.body.mass, 0.0)
-    jerk = law.wp * (law.s1 * at.u1 + law.gamma * law.s2 * at.u2) - law.b * at.vp - law.c * ap
     scale = HOLD / where(acts, case.friction_force, 1.0)
     hold = -scale * (law.intercept2 + law.s2 * at.d2 + inertia * ap)
-    hold_rate = -scale * (law.s2 * at.u2 + inertia * jerk)
+    hold_rate = -scale * (f2 + inertia * jp)
     forward = where(slides, relative, where(sticks, hold - HOLD, -1.0))
     forward_rate = where(slides, relative_rate, where(sticks, hold_rate, 0.0))
-    watched.append((forward, forward_rate))
-    watched.append((where(sticks, -hold - HOLD, -1.0), where(sticks, -hold_rate, 0.0)))
-    watched.append((-at.vp / V, -ap / V))
+    watched.append((forward, forward_rate, where(slides, relative_second, 0.0)))
+    watched.append((where(sticks, -hold - HOLD, -1.0), where(sticks, -hold_rate, 0.0), 0.0))
+    watched.append((-at.vp / V, -ap / V, -jp / V))
     return watched
 
 
@@ -298,7 +301,7 @@ def predict(watched: list[Watched], longest: Real, ops: Ops) -> Real:
     """Return a first trial step: the longest, or to where the first watched rate leads."""
     where = ops.where
     h = longest
-    for value, rate in watched[:PIER_TURN]:
+    for value, rate, _ in watched[:PIER_TURN]:
         approaches = (value < -TOLERANCE) & (rate > 0.0)
         arrival = -value / where(approaches, rate, 1.0)
         h = where(approaches & (arrival < h), arrival, h)
@@ -329,25 +332,34 @@ def first_change(
     """
     where, negate, some = ops.where, ops.negate, ops.some
     event, sooner = NONE + 0.0 * h, h
-    for which, ((g, rate), (g_h, rate_h)) in enumerate(zip(before, after, strict=True)):
+    for which, (start, end) in enumerate(zip(before, after, strict=True)):
+        (g, rate, second), (g_h, rate_h, second_h) = start, end
         armed = g < -TOLERANCE
         counts = (armed & records) if which == PIER_TURN else True
+        over = (g_h > TOLERANCE) & counts
         near = (g_h >= -TOLERANCE) & counts
         turns = (rate > 0.0) & (rate_h < 0.0) & counts
-        if not some(near | turns):
+        # A rate that keeps its sign may still have lost it in between; see `_lost_between`.
+        wavers = (rate * rate_h > 0.0) & (rate * second < 0.0) & (rate_h * second_h > 0.0)
+        wavers = wavers & counts & (h * (abs(rate) + abs(rate_h)) > -g)
+        if not some(near | turns | wavers):
             continue
-        over = g_h > TOLERANCE
-        # A quantity that rises and falls within the step was over zero in between unless the
-        # tangents at both ends meet below zero.
-        fall = where(turns, rate - rate_h, 1.0)
-        humps = turns & negate(over) & (g + rate * (g_h - g - rate_h * h) / fall > TOLERANCE)
-        over = over & counts
-        due = over & negate(armed) & ((rate > TOLERANCE) | (g > TOLERANCE))
+        wavers = wavers & negate(over) & _lost_between(rate, second, rate_h, second_h, h, ops)
+        highest = _crest(start, end, h, turns, ops)
+        humps = turns & negate(over) & (highest > TOLERANCE)
+        # What starts on its bound and moves on is due at once. Friction that has just let go is
+        # not: it starts with no relative velocity, nor acceleration but for round-off.
+        leaves = g > TOLERANCE if which in (FORWARD, BACKWARD) else rate > TOLERANCE
+        due = over & negate(armed) & (leaves | (g > TOLERANCE))
         root = crossing(g, rate, where(over, g_h, g + 1.0), rate_h, h, ops)
         trial = where(
             over,
             where(armed, root, where(due, 0.0, 0.5 * h)),
-            where(humps, h * rate / fall, h),
+            where(
+                humps,
+                h * rate / where(humps, rate - rate_h, 1.0),
+                where(wavers, h * second / where(wavers, second - second_h, 1.0), h),
+            ),
         )
         first = trial < sooner
         sooner = where(first, trial, sooner)
@@ -356,19 +368,52 @@ def first_change(
     return event, sooner
 
 
+def _crest(start: Watched, end: Watched, h: Real, turns: Flag, ops: Ops) -> Real:
+    """Return how high a quantity may be between the ends of a step; only where it `turns`.
+
+    Where it is concave at both ends its tangents meet above it; where at one end only, that
+    end's parabola tells, with half of its rise added for prudence.
+    """
+    where = ops.where
+    (g, rate, second), (g_h, rate_h, second_h) = start, end
+    meet = g + rate * (g_h - g - rate_h * h) / where(turns, rate - rate_h, 1.0)
+    falls, falls_h = second < 0.0, second_h < 0.0
+    left = where(falls, g - 0.75 * rate**2 / where(falls, second, 1.0), FAR)
+    right = where(falls_h, g_h - 0.75 * rate_h**2 / where(falls_h, second_h, 1.0), left)
+    return where(falls & falls_h, meet, right)
+
+
+def _lost_between(
+    rate: Real, second: Real, rate_h: Real, second_h: Real, h: Real, ops: Ops
+) -> Flag:
+    """Say whether a rate of one sign at both ends may have had the other in between.
+
+    The mark of it is that the rate first makes for zero and at last away from it, and that its
+    tangents meet beyond zero, or not far from it.
+    """
+    differs = second != second_h
+    meeting = rate + second * (rate_h - rate - second_h * h) / ops.where(
+        differs, second - second_h, 1.0
+    )
+    closer = (rate * (2.0 * meeting - rate) < 0.0) & (rate * (2.0 * meeting - rate_h) < 0.0)
+    return differs & closer
+
+
 def crossing(g: Real, rate: Real, g_h: Real, rate_h: Real, h: Real, ops: Ops) -> Real:
     """Estimate where a quantity that is negative at 0 and positive at `h` crosses zero.
 
-    Inverse cubic interpolation on values and rates, or the chord where that would not be
-    monotone.
+    Inverse cubic interpolation on values and rates; where that would not be monotone, the
+    tangent at `h` or the chord, whichever is beyond the crossing if the rate only grows or falls.
     """
     where = ops.where
+    mean = (g_h - g) / h
     r = -g / (g_h - g)
-    slope = (g_h - g) / (3.0 * h)
-    cubic = (rate > slope) & (rate_h > slope)
+    cubic = (3.0 * rate > mean) & (3.0 * rate_h > mean)
     shift = (1.0 - r) / where(cubic, rate, 1.0) - r / where(cubic, rate_h, 1.0)
     curved = h * r * r * (3.0 - 2.0 * r) + (g_h - g) * r * (1.0 - r) * shift
-    return where(cubic & (curved < h), curved, r * h)
+    gathers = rate_h > mean
+    straight = where(gathers, h - g_h / where(gathers, rate_h, 1.0), r * h)
+    return where(cubic & (curved < h), curved, straight)
 
 
 def advance(
@@ -469,7 +514,8 @@ def finished(case: Collision, state: State, ops: Ops) -> Flag:
     ):
         force = line.intercept + line.slope * d
         energy = energy + 0.5 * force**2 / spring.unloading_stiffness
-        missing = spring.plateau_force * (spring.plateau_length - line.largest)
+        largest = where(d > line.largest, d, line.largest)
+        missing = spring.plateau_force * (spring.plateau_length - largest)
         no_contact = no_contact & ((contact == contact) | (missing > energy))
     met = state.cargo_contact == state.cargo_contact
     highest = where(met, state.cargo_peak, state.engine_peak)

@@ -75,9 +75,11 @@ def write_report(
             notebook = _execute(parameters, case_path.parent, files["ipynb"], bar)
             warnings = _convert(notebook, files, bar)
         except Exception as error:
+            message = _reason(error)
             if files["ipynb"].is_file():
                 files["ipynb"].replace(failed)
-            raise ReportError(f"{_reason(error)}; the notebook is kept as {failed}") from error
+                message += f"; the notebook is kept as {failed}"
+            raise ReportError(message) from error
         for file in files.values():
             file.replace(output_dir / file.name)
     failed.unlink(missing_ok=True)

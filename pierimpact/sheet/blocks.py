@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pierimpact.markup import Inline, to_html, to_typst, typst_string
+from pierimpact.sheet.markup import Inline, to_html, to_typst, typst_string
 from pierimpact.units import Printed
 
 #: MIME type of what running headers, document properties and paper size need to know.
@@ -154,7 +154,10 @@ class Notice(Block):
         """Return the block as HTML."""
         body = "".join(f"<p>{to_html(paragraph)}</p>" for paragraph in self.body)
         heading = html.escape(self.heading)
-        return f'<aside class="notice" aria-label="{heading}"><h4>{heading}</h4>{body}</aside>'
+        return (
+            f'<aside class="notice" aria-label="{heading}">'
+            f"<p><strong>{heading}</strong></p>{body}</aside>"
+        )
 
     def to_typst(self) -> str:
         """Return the block as Typst markup."""
@@ -230,8 +233,9 @@ class Table(Block):
             )
             strong = ' class="strong"' if index in self.strong else ""
             body += f'<tr{strong}><th scope="row"{classes[0]}>{first}</th>{cells}</tr>'
+        width = "" if any(column.wide for column in self.columns) else ' class="narrow"'
         return (
-            f'<div class="table"><table id="{self.label}"><caption>{_numbered("Table")}'
+            f'<div class="table"><table{width} id="{self.label}"><caption>{_numbered("Table")}'
             f"{to_html(self.caption)}</caption><thead><tr>{head}</tr></thead>"
             f"<tbody>{body}</tbody></table></div>"
         )

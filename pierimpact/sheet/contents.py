@@ -6,9 +6,7 @@ import pierimpact
 from pierimpact.calculation import MUCH_SMALLER, Calculation
 from pierimpact.casefile import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.figures import draw_history
-from pierimpact.input_tables import STATUS_WORDS, name_of
-from pierimpact.markup import Code, Inline, Tex
-from pierimpact.sheet import (
+from pierimpact.sheet.blocks import (
     Block,
     Column,
     Figure,
@@ -18,6 +16,8 @@ from pierimpact.sheet import (
     Table,
     TitleBlock,
 )
+from pierimpact.sheet.input_tables import STATUS_WORDS, name_of
+from pierimpact.sheet.markup import Code, Inline, Tex
 from pierimpact.units import Printed, printed, rounded, unit_of
 
 
@@ -189,7 +189,7 @@ def peaks_table(calculation: Calculation) -> Block:
             Column(heading=""),
             Column(heading=f"Contact after [{time}]", align="decimal"),
             Column(heading=f"Peak reaction [{force}]", align="decimal"),
-            Column(heading=f"after [{time}]", align="decimal"),
+            Column(heading=f"Peak after [{time}]", align="decimal"),
             Column(heading=""),
         ],
         rows=rows,

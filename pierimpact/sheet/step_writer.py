@@ -8,8 +8,8 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from pierimpact.markup import in_tex, number_in_tex
-from pierimpact.sheet import Equation
+from pierimpact.sheet.blocks import Equation
+from pierimpact.sheet.markup import in_tex, number_in_tex
 from pierimpact.units import printed
 
 _LONG = 90  # LaTeX with values of more characters than this leaves no room for the result

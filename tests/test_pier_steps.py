@@ -6,9 +6,9 @@ import re
 
 import pytest
 
-from pierimpact import steps
 from pierimpact.calculation import calculate
 from pierimpact.casefile import case_from
+from pierimpact.sheet import pier_steps
 from pierimpact.units import _unit
 
 SHAPES = {
@@ -44,10 +44,10 @@ def calculation(shape="circular", ends=("fixed", "pinned"), units="SI", **change
 
 def all_steps(result):
     functions = (
-        steps.section_steps,
-        steps.unit_force_steps,
-        steps.stiffness_steps,
-        steps.mass_steps,
+        pier_steps.section_steps,
+        pier_steps.unit_force_steps,
+        pier_steps.stiffness_steps,
+        pier_steps.mass_steps,
     )
     return [equation for function in functions for equation in function(result).equations]
 
@@ -149,16 +149,16 @@ def test_the_results_are_those_of_the_calculation(ends):
 
 def test_modulus_from_strength_says_where_it_is_from():
     result = calculation(elastic_modulus=None, concrete_strength="28 MPa")
-    modulus = steps.section_steps(result).equations[0]
+    modulus = pier_steps.section_steps(result).equations[0]
     assert "unverified: check against the standard" in modulus.source
     check(modulus)
 
 
 def test_the_shape_polynomials_and_the_table_agree():
     result = calculation()
-    below, above = steps.shape_steps(result).equations
+    below, above = pier_steps.shape_steps(result).equations
     height, impact = 5.3, 1.17
-    for row in steps.shape_table(result).rows:
+    for row in pier_steps.shape_table(result).rows:
         z, phi = (float(str(cell)) for cell in row[:2])
         equation, s = (below, z / height) if z <= impact else (above, (height - z) / height)
         text = as_python(equation.lines[0].partition(r" \quad")[0].replace(r"\, s", f"*{s!r}"))

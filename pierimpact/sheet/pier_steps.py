@@ -5,10 +5,10 @@ from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from pierimpact.calculation import Calculation
-from pierimpact.markup import Tex, in_tex, number_in_tex
 from pierimpact.sections import CircularSection
-from pierimpact.sheet import Column, Equation, Steps, Table
-from pierimpact.step_writer import StepWriter, Value
+from pierimpact.sheet.blocks import Column, Equation, Steps, Table
+from pierimpact.sheet.markup import Tex, in_tex, number_in_tex
+from pierimpact.sheet.step_writer import StepWriter, Value
 from pierimpact.units import printed, unit_of
 
 

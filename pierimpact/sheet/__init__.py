@@ -1,0 +1,1 @@
+"""The calculation sheet: its blocks, and what they say of a case."""
