@@ -63,6 +63,7 @@ class Exercise:
     def __init__(self, topic: str, number: int, question: Question) -> None:
         self.topic, self.number, self.question = topic, number, question
         self.feedback = ipw.HTML()
+        self._checked = ""
         if question.choices:
             self.box: ipw.Widget = ipw.RadioButtons(
                 options=question.choices, value=None, layout=ipw.Layout(width="auto")
@@ -72,8 +73,10 @@ class Exercise:
             if question.dimension:
                 unit = DIMENSIONS[question.dimension].units.split(",")[0]
                 hint = f"number and unit, e.g. in {unit}"
-            self.box = ipw.Text(placeholder=hint, layout=ipw.Layout(width="230px"))
-            self.box.on_submit(self.answer)
+            self.box = ipw.Text(
+                placeholder=hint, continuous_update=False, layout=ipw.Layout(width="230px")
+            )
+            self.box.observe(self.answer, "value")  # on Enter, and on leaving the box
         button = ipw.Button(description="Check", icon="check", layout=ipw.Layout(width="90px"))
         button.on_click(self.answer)
         self.widget = ipw.VBox(
@@ -84,9 +87,11 @@ class Exercise:
 
     def answer(self, *_: object) -> Verdict:
         """Check what stands in the box, say so and keep the score."""
-        verdict = check(self.question, self.box.value or "")
+        given = self.box.value or ""
+        verdict = check(self.question, given)
         score = _SCORES.setdefault(self.topic, _Score())
-        if verdict.right is not None and self.number not in score.solved:
+        again, self._checked = given == self._checked, given
+        if verdict.right is not None and self.number not in score.solved and not again:
             score.tries[self.number] = score.tries.get(self.number, 0) + 1
             if verdict.right:
                 score.solved.add(self.number)

@@ -17,7 +17,6 @@ from pierimpact.crush import CrushSpring
 from pierimpact.design import design_values
 from pierimpact.history import CollisionHistory
 from pierimpact.pier import EquivalentPier
-from pierimpact.reduction import exact_amplification
 from pierimpact.sections import CircularSection
 from pierimpact.truck import Truck
 
@@ -33,13 +32,12 @@ FREQUENCIES = np.geomspace(2.0, 200.0, 121)
 class Curves(NamedTuple):
     """Peak reactions of engine and cargo against pier frequency, shape (n,) [N].
 
-    By the full model, by the two-degree-of-freedom reduction and by the refined closed formulas.
+    By the full model, and by the closed formula of the reduction to two degrees of freedom.
     """
 
     frequency: Array
     full: dict[str, Array]
     reduced: dict[str, Array]
-    closed: dict[str, Array]
 
 
 @lru_cache(maxsize=16)
@@ -61,24 +59,12 @@ def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -
     peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)
     _, parts = collisions(truck, pier_mass, stiffness, damping_ratio, speed)
     _, case = next(parts)  # fewer piers than one chunk holds
-    reduced = design_values(case, "hand", remembered_amplification)
-    closed = design_values(case, "refined")
+    reduced = design_values(case, "hand")
     return Curves(
         frequency=FREQUENCIES,
         full={"engine": peaks.engine, "cargo": peaks.cargo},
         reduced={body: np.asarray(reduced[body]) for body in ("engine", "cargo")},
-        closed={body: np.asarray(closed[body]) for body in ("engine", "cargo")},
     )
-
-
-def remembered_amplification(beta: Array, mu: Array, e: Array, zeta: Array) -> Array:
-    """Return the exact amplification, which most sliders leave as it is."""
-    return _amplification(beta.tobytes(), float(mu[0]), float(e[0]), float(zeta[0]))
-
-
-@lru_cache(maxsize=16)
-def _amplification(beta: bytes, mu: float, e: float, zeta: float) -> Array:
-    return exact_amplification(np.frombuffer(beta), mu, e, zeta)
 
 
 @dataclass(frozen=True, kw_only=True)

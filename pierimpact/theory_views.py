@@ -3,8 +3,10 @@
 import html
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pierimpact import views
 from pierimpact.cases import collision
@@ -27,8 +29,8 @@ from pierimpact.collision import peak_reactions
 from pierimpact.crush import CrushSpring
 from pierimpact.design import LEVELS, design_reaction, design_values
 from pierimpact.formulas import amplification
-from pierimpact.reduction import exact_amplification
-from pierimpact.scenario import FREQUENCIES, Scenario, Strike, remembered_amplification
+from pierimpact.reduction import body_frequency, exact_amplification
+from pierimpact.scenario import FREQUENCIES, Scenario, Strike
 from pierimpact.units import printed
 
 #: How far each parameter is moved in the sensitivity view, as in the parametric study.
@@ -128,13 +130,18 @@ def amplification_figure(strike: Strike) -> str:
     """Draw S against β for engine and cargo, with the limits that any formula must meet."""
     rows = []
     values = _by_hand(strike)
-    for body, colour in views.BODIES.items():
-        beta, mu, e = (values[f"{body}_{name}"] for name in ("beta", "mu", "e"))
-        zeta = strike.pier.damping_ratio
-        grid = FREQUENCIES / strike.pier.frequency * beta
-        exact = remembered_amplification(
-            grid, *(np.full_like(grid, value) for value in (mu, e, zeta))
-        )
+    truck, zeta = strike.truck, strike.pier.damping_ratio
+    parts = {
+        "engine": (truck.engine_mass, truck.engine_spring),
+        "cargo": (truck.body_mass, truck.body_spring),
+    }
+    own = [float(body_frequency(mass, spring.stiffness)) for mass, spring in parts.values()]
+    mus = [values[f"{body}_mu"] for body in parts]
+    es = [spring.restitution for _, spring in parts.values()]
+    curves = _amplifications(*own, *mus, *es, zeta)
+    for body, frequency, mu, e, exact in zip(parts, own, mus, es, curves, strict=True):
+        colour, beta = views.BODIES[body], values[f"{body}_beta"]
+        grid = FREQUENCIES / frequency
         top = views.round_up(1.15 * float(exact.max()))
         low, high = min(grid[0], beta / 1.1), max(grid[-1], beta * 1.1)
         panel = Panel(
@@ -188,9 +195,32 @@ def amplification_readout(strike: Strike) -> str:
     return f'<table style="border-collapse:collapse;font-size:13px">{head}{rows}</table>'
 
 
+@lru_cache(maxsize=16)
+def _amplifications(
+    engine_frequency: float,
+    cargo_frequency: float,
+    engine_mu: float,
+    cargo_mu: float,
+    engine_e: float,
+    cargo_e: float,
+    zeta: float,
+) -> NDArray[np.float64]:
+    """Return the exact amplification of engine and cargo over the frequencies, shape (2, n)."""
+    own = np.array([[engine_frequency], [cargo_frequency]])
+    mu, e = np.array([[engine_mu], [cargo_mu]]), np.array([[engine_e], [cargo_e]])
+    return exact_amplification(FREQUENCIES / own, mu, e, zeta)
+
+
+@lru_cache(maxsize=2)
 def _by_hand(strike: Strike) -> dict[str, float]:
+    """Return the hand procedure's values, with the exact amplification of either body."""
     case = collision(strike.truck, strike.pier, strike.speed)
-    values = design_values(case, "hand", exact_amplification)
+    closed = design_values(case, "hand")
+    names = [[f"{body}_{name}" for body in ("engine", "cargo")] for name in ("beta", "mu", "e")]
+    beta, mu, e = ([float(closed[name]) for name in pair] for pair in names)
+    exact = exact_amplification(beta, mu, e, strike.pier.damping_ratio)
+    known = dict(zip(beta, exact.tolist(), strict=True))
+    values = design_values(case, "hand", lambda b, *_: known[float(b)])
     return {name: float(value) for name, value in values.items()}
 
 

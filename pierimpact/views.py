@@ -198,7 +198,7 @@ def spectra_figure(strike: Strike) -> str:
                 spectra.frequency,
                 1e-6 * reduced,
                 INK,
-                "two degrees of freedom",
+                "two-degree formula",
                 width=1.2,
                 dash="5 3",
             )
