@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.cases import collision, collisions
 from pierimpact.checks import not_negative, positive
 from pierimpact.history import CollisionHistory, RecordedStep
-from pierimpact.motion import OUTCOMES, State, Step, follow, follow_all
+from pierimpact.motion import OUTCOMES, Law, State, follow, follow_all
 from pierimpact.pier import EquivalentPier
 from pierimpact.truck import Truck
 
@@ -46,9 +46,9 @@ def simulate(
     case = collision(truck, pier, speed)
     steps: list[RecordedStep] = []
 
-    def record(state: State, step: Step, length: float) -> None:
+    def record(state: State, law: Law, length: float) -> None:
         if length > 0.0:
-            steps.append((state, step, length))
+            steps.append((state, law, length))
 
     end = follow(case, duration, record)
     return CollisionHistory(truck=truck, pier=pier, speed=speed, case=case, steps=steps, end=end)

@@ -1,15 +1,12 @@
 """The design procedure: from truck, pier and speed to engine, cargo and governing reaction.
 
-In the order of a collision: the plateau forces push the pier aside; the engine strikes it and
-leaves it ringing; the cargo strikes it while it rings. Two levels, both in closed form: "hand"
-fits on a page and needs a calculator; "refined" keeps the phase of the ringing and lets the
-pier's own motion correct the times and speeds of contact. All is derived here.
+The arithmetic is in `pierimpact.procedure`, the same in print in `pierimpact.equations`.
 """
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,29 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact import domain
 from pierimpact.cases import collision, collisions
 from pierimpact.checks import one_of, positive
-from pierimpact.equations import DesignStep, steps
-from pierimpact.formulas import (
-    LATE_SHARE,
-    RINGING_BETA,
-    RINGING_SHARE,
-    Motion,
-    amplification,
-    closing_time,
-    contact_modes,
-    crests,
-    engine_pulse,
-    swing,
-)
+from pierimpact.equations import DesignStep, given, steps
 from pierimpact.motion import Collision
 from pierimpact.pier import EquivalentPier
-from pierimpact.reduction import approach_speed
+from pierimpact.procedure import LEVELS, design_values
 from pierimpact.truck import Truck
 
-Real: TypeAlias = Any  # a float, or an array
-Values: TypeAlias = dict[str, Real]
-Spectrum: TypeAlias = Callable[[Real, Real, Real, Real], Real]
-
-LEVELS = ("refined", "hand")
 #: A cargo peak below this share of the engine's counts as much smaller. The source paper gives
 #: no figure; this one is this project's.
 MUCH_SMALLER = 0.5
@@ -54,21 +34,24 @@ class DesignReaction:
     ----------
     engine : float
         Engine reaction [N].
+    engine_contact : bool
+        Whether the engine meets the pier; without, `engine` is what the plateaus do.
     cargo : float or None
         Cargo reaction [N]; None where the cargo does not meet the pier.
     level : {"refined", "hand"}
         Level of the formulas.
+    case : Collision
+        Truck, pier and speed as plain numbers.
     values : dict
-        Every intermediate value by name, in order of calculation [SI].
-    warnings : tuple of str
-        What the formulas were not checked for, a sentence each.
+        Every number of the procedure by name, also those that mean nothing in this case.
     """
 
     engine: float
+    engine_contact: bool
     cargo: float | None
     level: str
-    values: dict[str, float]
-    warnings: tuple[str, ...]
+    case: Collision = field(repr=False)
+    values: dict[str, float] = field(repr=False)
 
     @property
     def reaction(self) -> float:
@@ -81,19 +64,24 @@ class DesignReaction:
         return "engine" if self.reaction == self.engine else "cargo"
 
     @property
-    def engine_contact(self) -> bool:
-        """Whether the engine meets the pier."""
-        return self.values["engine_speed"] > 0.0
-
-    @property
     def nominal_height(self) -> float:
         """Nominal impact height for these reactions [m]; see `nominal_impact_height`."""
         return nominal_impact_height(self.engine, self.cargo)
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the formulas were not checked for, a sentence each; empty within the domain."""
+        return domain.warnings(self.case)
+
+    @property
+    def given(self) -> tuple[DesignStep, ...]:
+        """What the procedure starts from, with symbols and units."""
+        return given(self.case, self.values["zeta"])
+
+    @cached_property
     def steps(self) -> tuple[DesignStep, ...]:
-        """Every intermediate value with its symbol, equation and unit."""
-        return steps(self.values)
+        """Every value that counts in this case, in order, with symbol, equation and unit."""
+        return steps(self.values, self.level, self.case.on_pier)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,10 +141,11 @@ def design_reaction(
     cargo = values["cargo"]
     return DesignReaction(
         engine=values["engine"],
+        engine_contact=values["engine_speed"] > 0.0,
         cargo=None if math.isnan(cargo) else cargo,
         level=level,
+        case=case,
         values=values,
-        warnings=domain.warnings(case),
     )
 
 
@@ -193,210 +182,3 @@ def design_reactions(
         found[:, part] = values["engine"], values["cargo"]
     engine, cargo = found.reshape(2, *shape)
     return DesignReactions(engine=engine, cargo=cargo)
-
-
-def design_values(case: Collision, level: str, spectrum: Spectrum = amplification) -> Values:
-    """Return every value of the procedure by name, in order.
-
-    The names are those of `pierimpact.equations`.
-
-    Parameters
-    ----------
-    case : Collision
-        Floats, or arrays of one shape.
-    level : {"refined", "hand"}
-        Level of the formulas.
-    spectrum : callable, optional
-        S of β, μ, e and ζ: the closed form, or the exact one to see what the fit costs.
-    """
-    values = _pier_and_push(case)
-    if level == "hand":
-        _meet_engine(case, values, spectrum, pier_moves=False)
-        _strike_by_hand(case, values, spectrum)
-    else:
-        _meet_engine(case, values, spectrum, pier_moves=True)
-        ringing = _ring(case, values)
-        _strike_ringing_pier(case, values, ringing)
-    return values
-
-
-def _pier_and_push(case: Collision) -> Values:
-    """Return the pier's frequency and damping, and the forces of the plateau."""
-    omega = np.sqrt(case.pier_stiffness / case.pier_mass)
-    zeta = case.pier_damping / (2.0 * np.sqrt(case.pier_stiffness * case.pier_mass))
-    push = case.body.plateau_force + np.where(case.on_pier, case.friction_force, 0.0)
-    step = case.engine.plateau_force + push
-    return {
-        "pier_omega": omega,
-        "damping_ratio": zeta,
-        "body_push": push,
-        "plateau_push": step,
-        "overshoot": step * (1.0 + np.exp(-math.pi * zeta / np.sqrt(1.0 - zeta**2))),
-        "engine_deceleration": case.engine.plateau_force / case.engine.mass,
-        "cargo_deceleration": (case.body.plateau_force + case.friction_force) / case.body.mass,
-    }
-
-
-def _pushed(case: Collision, values: Values, t: Real) -> Motion:
-    """Return the pier's response to the plateau forces, applied at t = 0."""
-    rest = values["plateau_push"] / case.pier_stiffness
-    x, v = swing(Motion(-rest, 0.0), values["pier_omega"], values["damping_ratio"], t)
-    return Motion(x + rest, v)
-
-
-def _meet_engine(case: Collision, values: Values, spectrum: Spectrum, pier_moves: bool) -> None:
-    """Add the engine's contact and reaction."""
-    mass, force, length, stiffness, unloading = case.engine
-    omega, zeta = values["pier_omega"], values["damping_ratio"]
-    time = closing_time(case.speed, values["engine_deceleration"], length)
-    way = length
-    if pier_moves:
-        way = length + _pushed(case, values, time).x
-        time = closing_time(case.speed, values["engine_deceleration"], way)
-        way = length + _pushed(case, values, time).x
-    x, v = _pushed(case, values, time)
-    approach = approach_speed(case.speed, mass, force, way)
-    values |= {
-        "engine_speed": approach,
-        "engine_time": time,
-        "engine_pier_x": x,
-        "engine_pier_v": v,
-        "engine_beta": omega / np.sqrt(stiffness / mass),
-        "engine_mu": mass / case.pier_mass,
-        "engine_e": np.sqrt(stiffness / unloading),
-    }
-    values["engine_S"] = spectrum(
-        values["engine_beta"], values["engine_mu"], values["engine_e"], zeta
-    )
-    values["engine_closing"] = np.maximum(approach - v, 0.0)
-    # Displacement and velocity of the pier's swing about its rest under the body's push, both
-    # as forces.
-    values["engine_blow"] = np.hypot(
-        case.pier_stiffness * x - values["body_push"],
-        case.pier_stiffness * v / omega
-        + values["engine_S"] * values["engine_closing"] * np.sqrt(stiffness * mass),
-    )
-    swung = omega * np.sqrt(1.0 - zeta**2) * time >= math.pi
-    struck = values["body_push"] + values["engine_blow"]
-    values["engine"] = np.where(
-        (approach > 0.0) & (~swung | (struck > values["overshoot"])), struck, values["overshoot"]
-    )
-
-
-def _strike_by_hand(case: Collision, values: Values, spectrum: Spectrum) -> None:
-    """Add the cargo's reaction by its spectrum, plus a share of the ringing that is left."""
-    mass, force, length, stiffness, unloading = case.body
-    omega, zeta = values["pier_omega"], values["damping_ratio"]
-    held = force + case.friction_force
-    approach = approach_speed(case.speed, mass, held, length)
-    time = closing_time(case.speed, values["cargo_deceleration"], length)
-    beta, mu = omega / np.sqrt(stiffness / mass), mass / case.pier_mass
-    e = np.sqrt(stiffness / unloading)
-    meets = values["engine_speed"] > 0.0
-    since = time - np.where(meets, values["engine_time"], 0.0)
-    values |= {
-        "cargo_speed": approach,
-        "cargo_time": time,
-        "cargo_beta": beta,
-        "cargo_mu": mu,
-        "cargo_e": e,
-        "cargo_S": spectrum(beta, mu, e, zeta),
-        "cargo_rise": np.hypot(held, approach * np.sqrt(stiffness * mass)) - held,
-        "ringing": np.where(meets, values["engine_blow"], values["plateau_push"])
-        * np.exp(-zeta * omega * since),
-    }
-    # The slower the pier, the less its ringing adds up with the cargo's own peak.
-    share = RINGING_SHARE / (1.0 + (RINGING_BETA / beta) ** 2)
-    struck = values["cargo_S"] * values["cargo_rise"] + share * values["ringing"]
-    values["cargo"] = np.where(approach > 0.0, values["body_push"] + struck, np.nan)
-
-
-def _ring(case: Collision, values: Values) -> Callable[[Real], Motion]:
-    """Add the engine's blow, or its halt, and return the motion of the pier around it."""
-    omega, zeta = values["pier_omega"], values["damping_ratio"]
-    meets = values["engine_speed"] > 0.0
-    pulse = engine_pulse(
-        case.engine.mass,
-        case.engine.stiffness,
-        values["engine_e"],
-        case.pier_mass,
-        values["engine_closing"],
-    )
-    values["impulse"] = np.where(
-        meets, pulse.impulse * np.exp(-0.5 * (omega * pulse.spread) ** 2), 0.0
-    )
-    end = np.where(
-        meets,
-        values["engine_time"] + pulse.centroid,
-        case.speed / values["engine_deceleration"],
-    )
-    at_end = _pushed(case, values, end)
-    rest = values["body_push"] / case.pier_stiffness
-    after = Motion(at_end.x - rest, at_end.v + values["impulse"] / case.pier_mass)
-    values |= {"blow_time": end, "blow_x": after.x, "blow_v": after.v}
-
-    def pier(t: Real) -> Motion:
-        rings = swing(after, omega, zeta, np.maximum(t - end, 0.0))
-        pushed = _pushed(case, values, t)
-        return Motion(
-            np.where(t > end, rings.x + rest, pushed.x), np.where(t > end, rings.v, pushed.v)
-        )
-
-    return pier
-
-
-def _strike_ringing_pier(
-    case: Collision, values: Values, ringing: Callable[[Real], Motion]
-) -> None:
-    """Add the cargo's reaction by the modes of body and pier, with the ringing's phase."""
-    mass, force, length, stiffness, _ = case.body
-    held = force + case.friction_force
-    time = closing_time(case.speed, values["cargo_deceleration"], length)
-    for _ in range(2):
-        way = length + ringing(time).x
-        time = closing_time(case.speed, values["cargo_deceleration"], way)
-    x, v = ringing(time)
-    approach = approach_speed(case.speed, mass, held, length + x)
-    rest = (values["body_push"] - held) / case.pier_stiffness
-    slow, fast = contact_modes(
-        mass,
-        stiffness,
-        case.pier_mass,
-        case.pier_stiffness,
-        case.pier_damping,
-        pier=Motion(x - rest, v),
-        body=Motion(x - rest + held / stiffness, approach),
-    )
-    # The spring turns at the crest of its crush, which is the body's motion less the pier's.
-    crush = slow.times(slow.body - 1.0), fast.times(fast.body - 1.0)
-    early, late = crests(*crush)
-    crushed = [crush[0].at(t) + crush[1].at(t) for t in (early, late)]
-    turn = np.where(crushed[0] > crushed[1], early, late)
-    at_turn = rest + slow.at(turn) + fast.at(turn)
-    values |= {
-        "cargo_speed": approach,
-        "cargo_time": time,
-        "cargo_pier_x": x,
-        "cargo_pier_v": v,
-        "rest": rest,
-        "slow_omega": slow.omega,
-        "slow_sigma": slow.sigma,
-        "slow_body": slow.body,
-        "slow_cosine": slow.cosine,
-        "slow_sine": slow.sine,
-        "fast_omega": fast.omega,
-        "fast_sigma": fast.sigma,
-        "fast_body": fast.body,
-        "fast_cosine": fast.cosine,
-        "fast_sine": fast.sine,
-        "turn_time": turn,
-        "turn_x": at_turn,
-    }
-    highest = x
-    for name, t in zip(("early", "late"), crests(slow, fast), strict=True):
-        crest = rest + slow.at(t) + fast.at(t)
-        # After the turn the spring unloads faster than the modes have it.
-        crest = np.where(t > turn, at_turn + LATE_SHARE * (crest - at_turn), crest)
-        highest = np.maximum(highest, crest)
-        values |= {f"{name}_crest_time": t, f"{name}_crest_x": crest}
-    values["cargo"] = np.where(approach > 0.0, case.pier_stiffness * highest, np.nan)

@@ -1,7 +1,7 @@
 """The domain in which the design formulas were studied."""
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,27 +10,43 @@ from pierimpact.motion import Collision, Spring
 
 Array = NDArray[np.float64]
 
-# Smallest and largest value, and unit, of everything that was varied. The truck's parameters
-# are 30 % about the reference truck `single-unit-8t`.
-DOMAIN: dict[str, tuple[float, float, str]] = {
-    "truck mass": (6e3, 20e3, "kg"),
-    "speed": (50.0 / 3.6, 110.0 / 3.6, "m/s"),
-    "pier frequency": (5.0, 150.0, "Hz"),
-    "pier mass": (3e3, 100e3, "kg"),
-    "pier stiffness": (0.05e9, 6e9, "N/m"),
-    "damping ratio": (0.02, 0.07, "-"),
-    "engine mass": (490.0, 910.0, "kg"),
-    "engine plateau force": (105e3, 195e3, "N"),
-    "engine plateau length": (0.35, 0.65, "m"),
-    "engine stiffness": (105e6, 195e6, "N/m"),
-    "engine unloading stiffness": (630e6, 1170e6, "N/m"),
-    "body plateau force": (350e3, 650e3, "N"),
-    "body plateau length": (1.33, 2.47, "m"),
-    "body stiffness": (7e6, 13e6, "N/m"),
-    "body unloading stiffness": (42e6, 78e6, "N/m"),
-    "friction force": (15.05e3, 27.95e3, "N"),
+
+class Range(NamedTuple):
+    """From where to where a value was varied, in a unit of the given size in SI."""
+
+    low: float
+    high: float
+    unit: str
+    size: float
+
+
+# The truck's parameters are 30 % about the reference truck `single-unit-8t`; its friction goes
+# down to none, and acts on the road or on the pier.
+DOMAIN = {
+    "truck mass": Range(6.0, 20.0, "t", 1e3),
+    "speed": Range(50.0, 110.0, "km/h", 1.0 / 3.6),
+    "pier frequency": Range(5.0, 150.0, "Hz", 1.0),
+    "pier mass": Range(3.0, 100.0, "t", 1e3),
+    "pier stiffness": Range(50.0, 6000.0, "MN/m", 1e6),
+    "damping ratio": Range(2.0, 7.0, "%", 1e-2),
+    "engine mass": Range(490.0, 910.0, "kg", 1.0),
+    "engine plateau force": Range(105.0, 195.0, "kN", 1e3),
+    "engine plateau length": Range(0.35, 0.65, "m", 1.0),
+    "engine stiffness": Range(105.0, 195.0, "MN/m", 1e6),
+    "engine unloading stiffness": Range(630.0, 1170.0, "MN/m", 1e6),
+    "body plateau force": Range(350.0, 650.0, "kN", 1e3),
+    "body plateau length": Range(1.33, 2.47, "m", 1.0),
+    "body stiffness": Range(7.0, 13.0, "MN/m", 1e6),
+    "body unloading stiffness": Range(42.0, 78.0, "MN/m", 1e6),
+    "friction force": Range(0.0, 27.95, "kN", 1e3),
 }
 SPRING = ("plateau force", "plateau length", "stiffness", "unloading stiffness")
+
+
+def bounds(name: str) -> tuple[float, float]:
+    """Return from where to where a value was varied, in SI."""
+    low, high, _, size = DOMAIN[name]
+    return low * size, high * size
 
 
 def values(case: Collision) -> dict[str, Any]:
@@ -56,10 +72,10 @@ def warnings(case: Collision) -> tuple[str, ...]:
     found = values(case)
     # A bound met but for round-off is met.
     return tuple(
-        f"{name} {found[name]:.4g} {unit} is outside the studied {low:.4g} to {high:.4g} {unit}: "
-        f"the design formulas were not checked there"
-        for name, (low, high, unit) in DOMAIN.items()
-        if not low * (1.0 - 1e-9) <= found[name] <= high * (1.0 + 1e-9)
+        f"{name} {found[name] / size:.4g} {unit} is outside the studied {low:g} to {high:g} {unit}:"
+        f" the design formulas were not checked there"
+        for name, (low, high, unit, size) in DOMAIN.items()
+        if not low * (1.0 - 1e-9) <= found[name] / size <= high * (1.0 + 1e-9)
     )
 
 
@@ -67,7 +83,7 @@ def sample(size: int, seed: int) -> Collision:
     """Return random collisions of the domain, as arrays of shape (size,).
 
     Pier frequency and mass are uniform in their logarithms, where the stiffness allows; all else
-    is uniform.
+    is uniform, the friction on road or pier with equal chance.
 
     Parameters
     ----------
@@ -79,15 +95,15 @@ def sample(size: int, seed: int) -> Collision:
     random = np.random.default_rng(seed)
 
     def uniform(name: str) -> Array:
-        low, high, _ = DOMAIN[name]
+        low, high = bounds(name)
         return random.uniform(low, high, size)
 
     mass, stiffness = np.empty(0), np.empty(0)
     while len(mass) < size:
-        low, high = np.log([DOMAIN[name][:2] for name in ("pier frequency", "pier mass")]).T
+        low, high = np.log([bounds("pier frequency"), bounds("pier mass")]).T
         frequency, trial = np.exp(random.uniform(low, high, (size, 2))).T
         stiff = trial * (2.0 * math.pi * frequency) ** 2
-        softest, stiffest, _ = DOMAIN["pier stiffness"]
+        softest, stiffest = bounds("pier stiffness")
         keep = (stiff >= softest) & (stiff <= stiffest)
         mass, stiffness = np.append(mass, trial[keep]), np.append(stiffness, stiff[keep])
     mass, stiffness = mass[:size], stiffness[:size]
@@ -98,7 +114,7 @@ def sample(size: int, seed: int) -> Collision:
             uniform("truck mass") - engine_mass, *(uniform(f"body {name}") for name in SPRING)
         ),
         friction_force=uniform("friction force"),
-        on_pier=np.zeros(size, dtype=bool),
+        on_pier=random.uniform(size=size) < 0.5,
         pier_mass=mass,
         pier_stiffness=stiffness,
         pier_damping=2.0 * uniform("damping ratio") * np.sqrt(stiffness * mass),

@@ -20,7 +20,6 @@ MASS_EFFECT = 1.42
 DAMPING_EFFECT = 5.2
 RINGING_SHARE = 0.6
 RINGING_BETA = 2.0
-LATE_SHARE = 0.8
 
 
 class Motion(NamedTuple):
@@ -30,29 +29,40 @@ class Motion(NamedTuple):
     v: Real
 
 
-def amplification(
+def hump(
     beta: Real,
     mu: Real,
-    e: Real,
     zeta: Real,
-    hump: float = HUMP,
+    height: float = HUMP,
     end: float = HUMP_END,
     decline: float = HUMP_DECLINE,
     mass_effect: float = MASS_EFFECT,
     damping_effect: float = DAMPING_EFFECT,
 ) -> Real:
-    """Return the amplification S of the unified spectrum, in closed form [-].
+    """Return what the motion of the pier adds to the static part of the unified spectrum [-].
 
-    1/S² = 1/[(1 + e) β]² + (1 + μ/β²)/Q², with the hump
-    Q = 1 + 1.44 e^(−5.2 ζ) / {[1 + (β/3.08)^3.1] (1 + 1.42 μ/β)}.
+    h = 1.44 e^(−5.2 ζ) / {[1 + (β/3.08)^3.1] (1 + 1.42 μ/β)}.
+    """
+    decays = (1.0 + (beta / end) ** decline) * (1.0 + mass_effect * mu / beta)
+    return height * np.exp(-damping_effect * zeta) / decays
+
+
+def joined(beta: Real, mu: Real, e: Real, h: Real) -> Real:
+    """Return the amplification S: its impulsive and its static part, joined [-].
+
+    1/S² = 1/[(1 + e) β]² + (1 + μ/β²)/(1 + h)².
+    """
+    impulsive, static = 1.0 / ((1.0 + e) * beta), np.sqrt(1.0 + mu / beta**2) / (1.0 + h)
+    return 1.0 / np.hypot(impulsive, static)
+
+
+def amplification(beta: Real, mu: Real, e: Real, zeta: Real) -> Real:
+    """Return the amplification S of the unified spectrum, in closed form [-].
 
     It meets exactly: S → (1 + e) β for a soft heavy pier (impulse), S → 1 for a stiff heavy one,
     S → 1/√(1 + k_i/k_p) for a massless one, as k_i/k_p = μ/β².
     """
-    hump = hump * np.exp(-damping_effect * zeta)
-    hump = hump / ((1.0 + (beta / end) ** decline) * (1.0 + mass_effect * mu / beta))
-    impulsive, static = 1.0 / ((1.0 + e) * beta), np.sqrt(1.0 + mu / beta**2) / (1.0 + hump)
-    return 1.0 / np.hypot(impulsive, static)
+    return joined(beta, mu, e, hump(beta, mu, zeta))
 
 
 def swing(start: Motion, omega: Real, zeta: Real, t: Real) -> Motion:
@@ -65,131 +75,150 @@ def swing(start: Motion, omega: Real, zeta: Real, t: Real) -> Motion:
     )
 
 
+def approach_speed(speed: Real, deceleration: Real, length: Real) -> Real:
+    """Return the speed v = √(V² − 2 a d) left after a body was slowed over a length d [m/s].
+
+    From the energy balance. Zero where the body stops before.
+    """
+    return np.sqrt(np.maximum(speed**2 - 2.0 * deceleration * length, 0.0))
+
+
 def closing_time(speed: Real, deceleration: Real, length: Real) -> Real:
-    """Return the time 2 d/(V + v) in which a body slowed from V to v = √(V² − 2 a d) covers d [s].
+    """Return the time 2 d/(V + v) in which a body slowed from V to v covers d [s].
 
     Where it stops short of d, the time 2 d/V of the body that would just reach it.
     """
-    left = np.sqrt(np.maximum(speed**2 - 2.0 * deceleration * length, 0.0))
-    return 2.0 * length / (speed + left)
+    return 2.0 * length / (speed + approach_speed(speed, deceleration, length))
 
 
 class Pulse(NamedTuple):
-    """The engine's blow: impulse [N s], time of its centroid after contact [s], spread [s]."""
+    """The engine's blow on a free pier, and the oscillator it follows from.
 
+    Reduced mass [kg], its circular frequency on the spring [rad/s], impulse [N s], time of the
+    centroid after contact [s] and spread about it [s].
+    """
+
+    mass: Real
+    omega: Real
     impulse: Real
     centroid: Real
     spread: Real
 
 
 def engine_pulse(mass: Real, stiffness: Real, e: Real, pier_mass: Real, speed: Real) -> Pulse:
-    """Return the blow of a mass on a free pier.
+    """Return the blow of a mass on a free pier: a quarter sine up, and down a quarter cosine.
 
-    A quarter sine up, and down a quarter cosine that is e as long.
-
-    With the reduced mass m_r = m/(1 + m/m_p) and ω_r = √(k/m_r) its impulse is
-    (1 + e) m_r v, and centroid and spread are the first two moments of its area over time.
+    Up it lasts π/2 ω_r, with the reduced mass m_r = m/(1 + m/m_p) and ω_r = √(k/m_r), down e
+    times as long. Its impulse is (1 + e) m_r v; centroid and spread are the mean and the
+    standard deviation of time, weighted by the force.
     """
     reduced = mass / (1.0 + mass / pier_mass)
     omega = np.sqrt(stiffness / reduced)
     half = 0.5 * math.pi
-    # Areas, first and second moments of the two quarters over ω t, the second shifted to π/2.
+    # Areas, first and second moments of the two quarters over ω_r t, those of the second about
+    # its own start shifted by π/2.
     area = 1.0 + e
     first = 1.0 + e * half + e**2 * (half - 1.0)
     second = 2.0 * (half - 1.0) + e * half**2 + 2.0 * half * e**2 * (half - 1.0)
     second = second + e**3 * (half**2 - 2.0)
-    centroid = first / area
+    mean = first / area
     return Pulse(
-        (1.0 + e) * reduced * speed,
-        centroid / omega,
-        np.sqrt(second / area - centroid**2) / omega,
+        mass=reduced,
+        omega=omega,
+        impulse=(1.0 + e) * reduced * speed,
+        centroid=mean / omega,
+        spread=np.sqrt(second / area - mean**2) / omega,
     )
 
 
 class Mode(NamedTuple):
-    """A damped mode: value e^(−σt) (cosine cos ωt + sine sin ωt), and the body's part of it."""
+    """A damped mode of the pier's displacement, e^(−σt) (a cos ωt + b sin ωt)."""
 
     omega: Real
+    body: Real  # motion of the body over that of the pier
     sigma: Real
     cosine: Real
     sine: Real
-    body: Real  # motion of the body over that of the pier
+    amplitude: Real
+    phase: Real
+    crest: Real  # angle ωt of the first crest, from 0 to 2π [rad]
 
     def at(self, t: Real) -> Real:
-        """Value after a time `t`."""
-        turn = self.omega * t
-        return np.exp(-self.sigma * t) * (self.cosine * np.cos(turn) + self.sine * np.sin(turn))
+        """Return the displacement A e^(−σt) cos(ωt − φ) at a time `t`."""
+        return self.amplitude * np.exp(-self.sigma * t) * np.cos(self.omega * t - self.phase)
 
-    def times(self, factor: Real) -> "Mode":
-        """Return the mode with its value multiplied by `factor`."""
-        return self._replace(cosine=factor * self.cosine, sine=factor * self.sine)
+
+class ContactModes(NamedTuple):
+    """The two modes of pier and body on the steep spring, and what their shapes follow from."""
+
+    gamma: Real
+    root: Real
+    slow: Mode
+    fast: Mode
 
 
 def contact_modes(
-    mass: Real,
-    stiffness: Real,
-    pier_mass: Real,
-    pier_stiffness: Real,
-    pier_damping: Real,
-    pier: Motion,
-    body: Motion,
-) -> tuple[Mode, Mode]:
-    """Return the slow and the fast mode of pier and body joined by the steep spring.
+    beta: Real, mu: Real, omega: Real, zeta: Real, pier: Motion, body: Motion
+) -> ContactModes:
+    """Return the motion of pier and body joined by the steep spring, as two modes.
 
-    λ² − λ [(1 + μ) ω_i² + ω_p²] + ω_i² ω_p² = 0 gives ω² = λ; the body moves ω_i²/(ω_i² − λ) as
-    far as the pier. The damper's effect on a mode is kept, the coupling it makes between the two
-    is not.
+    With γ = (β² + μ − 1)/2 and λ = √(γ² + μ) the body moves ψ_s = (λ + γ)/μ times as far as the
+    pier in the slow mode and ψ_f = −1/(λ + γ) times in the fast one, at ω_f = ω_i √(1 + γ + λ)
+    and ω_s = ω_p ω_i/ω_f. The damper's effect on a mode is kept, the coupling it makes between
+    the two is not.
 
     Parameters
     ----------
-    mass, stiffness : array_like
-        Body m_i [kg] and steep spring k_i [N/m].
-    pier_mass, pier_stiffness, pier_damping : array_like
-        Pier [kg], [N/m], [N s/m].
+    beta, mu : array_like
+        Frequency ratio ω_p/ω_i and mass ratio m_i/m_p of the body on its steep spring [-].
+    omega, zeta : array_like
+        Circular frequency [rad/s] and damping ratio [-] of the pier.
     pier, body : Motion
         Motions at contact, from the position of rest of the joined system.
     """
-    own, square = stiffness / mass, pier_stiffness / pier_mass
-    total = own * (1.0 + mass / pier_mass) + square
-    root = np.sqrt(total**2 - 4.0 * own * square)
+    own = omega / beta
+    gamma = 0.5 * (beta**2 + mu - 1.0)
+    root = np.sqrt(gamma**2 + mu)
+    # As λ² − γ² = μ, λ + γ can be had without cancellation whatever the sign of γ.
+    total = np.where(gamma > 0.0, root + gamma, mu / (root + np.abs(gamma)))
+    fast_omega = own * np.sqrt(1.0 + gamma + root)
     modes = []
-    for eigenvalue in (2.0 * own * square / (total + root), 0.5 * (total + root)):
-        ratio = own / (own - eigenvalue)
-        modal_mass = pier_mass + mass * ratio**2
-        omega = np.sqrt(eigenvalue)
-        sigma = 0.5 * pier_damping / modal_mass
-        displacement = (pier_mass * pier.x + mass * ratio * body.x) / modal_mass
-        velocity = (pier_mass * pier.v + mass * ratio * body.v) / modal_mass
-        sine = (velocity + sigma * displacement) / omega
-        modes.append(Mode(omega, sigma, displacement, sine, ratio))
-    slow, fast = modes
-    return slow, fast
+    for mode_omega, ratio in ((omega * own / fast_omega, total / mu), (fast_omega, -1.0 / total)):
+        share = 1.0 / (1.0 + mu * ratio**2)  # m_p over the modal mass
+        sigma = zeta * omega * share
+        cosine = share * (pier.x + mu * ratio * body.x)
+        sine = (share * (pier.v + mu * ratio * body.v) + sigma * cosine) / mode_omega
+        amplitude, phase = np.hypot(cosine, sine), np.arctan2(sine, cosine)
+        crest = np.mod(phase - np.arctan(sigma / mode_omega), 2.0 * math.pi)
+        modes.append(Mode(mode_omega, ratio, sigma, cosine, sine, amplitude, phase, crest))
+    return ContactModes(gamma, root, *modes)
 
 
-def crests(slow: Mode, fast: Mode) -> tuple[Real, Real]:
-    """Return when the sum of both modes crests, before and after the slow mode does [s].
+class Crests(NamedTuple):
+    """When two modes and their sum crest [s]: the slow mode, the sum before it and after it.
 
-    Near its crest each mode is a parabola of curvature amplitude times ω², so that the sum has
-    its crest at the mean of both crests weighted by the curvatures.
+    `share` is the weight of the fast mode, `turns` the number of its whole turns before.
     """
-    t_slow = _phase(slow) / slow.omega
-    weight_slow = np.hypot(slow.cosine, slow.sine) * slow.omega**2
-    weight_fast = (
-        np.hypot(fast.cosine, fast.sine)
-        * fast.omega**2
-        * np.exp(-(fast.sigma - slow.sigma) * t_slow)
-    )
-    share = weight_fast / (weight_fast + weight_slow)
-    turns = np.floor((t_slow * fast.omega - _phase(fast)) / (2.0 * math.pi))
-    early = (_phase(fast) + 2.0 * math.pi * turns) / fast.omega
-    late = early + 2.0 * math.pi / fast.omega
-    return (
-        np.maximum(t_slow + share * (early - t_slow), 0.0),
-        t_slow + share * (late - t_slow),
-    )
+
+    slow: Real
+    share: Real
+    turns: Real
+    early: Real
+    late: Real
 
 
-def _phase(mode: Mode) -> Real:
-    """Return the angle ω t of a mode's first crest, from 0 to 2π [rad]."""
-    angle = np.arctan2(mode.sine, mode.cosine) - np.arctan2(mode.sigma, mode.omega)
-    return np.mod(angle, 2.0 * math.pi)
+def crests(slow: Mode, fast: Mode) -> Crests:
+    """Return when the sum of two modes crests, before and after the slow one does.
+
+    Near its crest each mode is a parabola of curvature A ω², so that the sum has its crest at
+    the mean of both crests weighted by the curvatures; the fast mode has a crest before and one
+    after the slow mode's.
+    """
+    t = slow.crest / slow.omega
+    weight = fast.amplitude * fast.omega**2 * np.exp((slow.sigma - fast.sigma) * t)
+    share = weight / (weight + slow.amplitude * slow.omega**2)
+    turn = 2.0 * math.pi
+    turns = np.floor((fast.omega * t - fast.crest) / turn)
+    before = (fast.crest + turn * turns) / fast.omega
+    early, late = t + share * (before - t), t + share * (before + turn / fast.omega - t)
+    return Crests(t, share, turns, np.maximum(early, 0.0), late)

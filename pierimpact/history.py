@@ -9,16 +9,28 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.motion import Collision, State, Step
+from pierimpact.motion import (
+    ARRAYS,
+    FLOATS,
+    Collision,
+    Law,
+    Position,
+    State,
+    coasted,
+    expand,
+    longest_step,
+    ringing,
+)
+from pierimpact.motion.series import TERMS
 from pierimpact.pier import EquivalentPier
 from pierimpact.truck import Truck
 
-RecordedStep: TypeAlias = tuple[State, Step, float]  # start, law and series, length [s]
+RecordedStep: TypeAlias = tuple[State, Law, float]  # start, equations of motion, length [s]
 Array: TypeAlias = NDArray[np.float64]
 
-ENGINE, BODY, PIER = range(3)  # as in a step's series
+ENGINE, BODY, PIER = range(3)  # as in a series
 
-# No mode turns by more than two radians in a step, so that a dozen samples draw it smoothly.
+# No mode turns by more than three radians in a piece, so that a dozen samples draw it smoothly.
 FRACTIONS = np.linspace(0.0, 1.0, 13)
 
 
@@ -90,8 +102,8 @@ class CollisionHistory:
         What was simulated.
     case : Collision
         The same as plain numbers.
-    steps : list of (State, Step, float)
-        Start, law and series, and length [s] of each piece.
+    steps : list of (State, Law, float)
+        Start, equations of motion, and length [s] of each step.
     end : State
         The last state.
     """
@@ -140,7 +152,7 @@ class CollisionHistory:
     @cached_property
     def time(self) -> Array:
         """Time after first touch, shape (n,) [s]."""
-        starts = self._column(lambda state, step: state.time)
+        starts = self._column(lambda state, law: state.time)
         return self._flat(starts + self._lengths * FRACTIONS)
 
     @cached_property
@@ -181,15 +193,15 @@ class CollisionHistory:
     @cached_property
     def engine_force(self) -> Array:
         """Force F1 of spring 1, shape (n,) [N]."""
-        intercept = self._column(lambda state, step: state.engine.intercept)
-        slope = self._column(lambda state, step: state.engine.slope)
+        intercept = self._column(lambda state, law: state.engine.intercept)
+        slope = self._column(lambda state, law: state.engine.slope)
         return self._flat(intercept + slope * self._series(ENGINE))
 
     @cached_property
     def body_force(self) -> Array:
         """Force F2 of spring 2, shape (n,) [N]."""
-        intercept = self._column(lambda state, step: state.body.intercept)
-        slope = self._column(lambda state, step: state.body.slope)
+        intercept = self._column(lambda state, law: state.body.intercept)
+        slope = self._column(lambda state, law: state.body.slope)
         return self._flat(intercept + slope * self._series(BODY))
 
     @cached_property
@@ -198,7 +210,7 @@ class CollisionHistory:
         # Where the body sticks the friction is what its motion asks for.
         held_mass = self.case.body.mass if self.case.on_pier else 0.0
         held = -self.body_force - held_mass * self._flat(self._series(PIER, order=2))
-        stuck = self._flat(self._column(lambda state, step: state.stuck) + 0.0 * FRACTIONS)
+        stuck = self._flat(self._column(lambda state, law: state.stuck) + 0.0 * FRACTIONS)
         return self._flat(self._sliding_friction + 0.0 * FRACTIONS) + stuck * held
 
     @cached_property
@@ -254,54 +266,74 @@ class CollisionHistory:
         )
         if not self.case.on_pier:
             # A body that sticks to the road is held by minus the force of its spring.
-            stuck = self._column(lambda state, step: state.stuck)
-            intercept = self._column(lambda state, step: state.body.intercept)
-            slope = self._column(lambda state, step: state.body.slope)
+            stuck = self._column(lambda state, law: state.stuck)
+            intercept = self._column(lambda state, law: state.body.intercept)
+            slope = self._column(lambda state, law: state.body.slope)
             impulse += self._accumulate(
                 (self._sliding_friction - stuck * intercept) * self._lengths * FRACTIONS
                 - stuck * slope * self._series(BODY, order=-1)
             )
         return float(np.max(np.abs(momentum + impulse - given)) / given)
 
-    # The arrays below have one row a step and one column a fraction of it.
+    # The arrays below have one row a piece and one column a fraction of it.
 
-    def _column(self, value: Callable[[State, Step], float]) -> Array:
-        """Return one value a step, shape (steps, 1)."""
-        return np.array([[float(value(state, step))] for state, step, _ in self.steps])
+    @cached_property
+    def _pieces(self) -> list[RecordedStep]:
+        """The steps, cut where the pier rings for longer than a series can follow."""
+        pieces: list[RecordedStep] = []
+        for state, law, length in self.steps:
+            count = max(1, math.ceil(length / longest_step(law, FLOATS) - 1e-9))
+            pieces.append((state, law, length / count))
+            for number in range(1, count):
+                t = number * length / count
+                at = coasted(law, state.at, ringing(law, state.at, FLOATS), t, FLOATS)
+                later = state._replace(time=state.time + t, at=at)
+                pieces.append((later, law, length / count))
+        return pieces
+
+    @cached_property
+    def _terms(self) -> tuple[Array, ...]:
+        """Terms of the motions' series, each of shape (pieces, terms)."""
+        starts = Position(*np.array([state.at for state, _, _ in self._pieces]).T)
+        laws = Law(*np.array([law for _, law, _ in self._pieces], dtype=float).T)
+        lengths = self._lengths[:, 0]
+        return tuple(terms.T for terms in expand(laws, starts, lengths, TERMS, ARRAYS))
+
+    def _column(self, value: Callable[[State, Law], float]) -> Array:
+        """Return one value a piece, shape (pieces, 1)."""
+        return np.array([[float(value(state, law))] for state, law, _ in self._pieces])
 
     @cached_property
     def _lengths(self) -> Array:
-        return np.array([[length] for _, _, length in self.steps])
+        return np.array([[length] for _, _, length in self._pieces])
 
     @cached_property
     def _sliding_friction(self) -> Array:
-        return self._column(lambda state, step: step.law.friction)
+        return self._column(lambda state, law: law.friction)
 
     def _series(self, which: int, order: int = 0, fractions: Array = FRACTIONS) -> Array:
-        """Return a motion's derivative of an order, or for −1 its integral from the step's start.
+        """Return a motion's derivative of an order, or for −1 its integral from a piece's start.
 
-        Shape (steps, fractions).
+        Shape (pieces, fractions).
         """
-        derivatives = np.array([step.series[which] for _, step, _ in self.steps])
-        terms = derivatives[:, max(order, 0) :]
-        powers = np.arange(terms.shape[1]) - min(order, 0)
-        factorials = np.array([math.factorial(n) for n in powers], dtype=float)
-        tau = (self._lengths * fractions)[..., None]
-        rows: Array = (tau**powers / factorials @ terms[..., None])[..., 0]
+        terms = self._terms[which][:, max(order, 0) :]
+        powers = np.arange(terms.shape[1])[:, None] - min(order, 0)
+        factorials = np.array([[math.factorial(n)] for n in powers[:, 0]], dtype=float)
+        rows: Array = terms @ (fractions**powers / factorials) / self._lengths**order
         return rows
 
     def _flat(self, rows: Array) -> Array:
-        """Join the steps' rows, each of which begins where the one before it ends."""
+        """Join the pieces' rows, each of which begins where the one before it ends."""
         return np.append(rows[:, :-1].ravel(), rows[-1, -1])
 
     def _accumulate(self, rows: Array) -> Array:
-        """Join rows that each count from the start of their step."""
+        """Join rows that each count from the start of their piece."""
         before = np.concatenate(([0.0], np.cumsum(rows[:-1, -1])))
         return self._flat(before[:, None] + rows)
 
     def _largest_crush(self, which: int) -> Array:
         springs = (self.truck.engine_spring, self.truck.body_spring)
-        earlier = self._column(lambda state, step: (state.engine, state.body)[which].largest)
+        earlier = self._column(lambda state, law: (state.engine, state.body)[which].largest)
         largest = np.maximum(self._series(which), earlier)
         # Up to the elastic limit nothing is lost, and nothing marks the crush as largest yet.
         return self._flat(np.maximum(largest, springs[which].elastic_limit))

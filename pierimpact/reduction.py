@@ -7,8 +7,8 @@ paper announces this reduction; its formulas are not in the surviving text and a
 From the model to the reduction, step by step:
 
 1. Until it meets the pier, body i is slowed by a constant force, P1 for the engine and P2 + c_s
-   for the cargo, over the plateau length d_i. The energy left is the approach speed
-   (`approach_speed`).
+   for the cargo, over the plateau length d_i. The energy left gives the approach speed
+   v_i = √(V² − 2 P1 d_1/m_1) or √(V² − 2 (P2 + c_s) d_2/m_2).
 2. From contact on, δ_i = d_i + y and spring i adds k_i y to the plateau force. With the plateau
    forces set aside, m_i y_i'' = −k_i y on the body, m_p x_p'' + c_p x_p' + k_p x_p = k_i y on the
    pier: a mass, a spring, and the pier.
@@ -18,16 +18,15 @@ From the model to the reduction, step by step:
    amplification S (`exact_amplification`).
 """
 
-import math
-from typing import Any
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pierimpact.cases import CHUNK
 from pierimpact.checks import InputError, positive_array, ratio_array
 from pierimpact.motion import (
     ARRAYS,
     FREE,
+    OUTCOMES,
     STEEP,
     Collision,
     Position,
@@ -37,33 +36,7 @@ from pierimpact.motion import (
     start,
 )
 
-CHUNK = 2048
 AWAY = 1e6  # crush at which the absent body would act, in units of v_i √(m_i/k_i)
-
-
-def approach_speed(speed: Any, mass: Any, force: Any, length: Any) -> NDArray[np.float64]:
-    """Speed left after a mass was slowed by a constant force: v_i = √(V² − 2 P d/m).
-
-    Derived here, from the energy balance.
-
-    Parameters
-    ----------
-    speed : array_like
-        Speed V at first touch [m/s].
-    mass : array_like
-        Mass m_i [kg].
-    force : array_like
-        P1 for the engine, P2 + c_s for the cargo [N].
-    length : array_like
-        Plateau length d_i [m].
-
-    Returns
-    -------
-    ndarray
-        Approach speed; zero where the mass stops before it meets the pier [m/s].
-    """
-    left: NDArray[np.float64] = np.sqrt(np.maximum(speed**2 - 2.0 * force * length / mass, 0.0))
-    return left
 
 
 def exact_amplification(
@@ -103,8 +76,11 @@ def exact_amplification(
     zeta = ratio_array("damping_ratio", damping_ratio)
     arrays = np.broadcast_arrays(beta, mu, e, zeta)
     flat = np.stack([array.reshape(-1) for array in arrays])
-    parts = [_amplification(*flat[:, i : i + CHUNK]) for i in range(0, flat.shape[1], CHUNK)]
-    return np.concatenate(parts).reshape(arrays[0].shape)
+    found = np.empty(flat.shape[1])
+    for first in range(0, len(found), CHUNK):
+        part = slice(first, first + CHUNK)
+        found[part] = _amplification(*flat[:, part])
+    return found.reshape(arrays[0].shape)
 
 
 def _amplification(
@@ -137,10 +113,5 @@ def _amplification(
         stuck=one > 0.0,
         engine_contact=0.0 * one,
     )
-    peak: NDArray[np.float64] = follow_all(case, contact)[2]
+    peak: NDArray[np.float64] = follow_all(case, contact)[OUTCOMES.index("engine_peak")]
     return pier_stiffness * peak
-
-
-def body_frequency(mass: Any, stiffness: Any) -> Any:
-    """Frequency f_i = √(k_i/m_i)/2π of a body on its steep spring [Hz]."""
-    return np.sqrt(stiffness / mass) / (2.0 * math.pi)

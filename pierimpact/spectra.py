@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.cases import collisions
 from pierimpact.checks import positive, positive_array
 from pierimpact.collision import peak_reactions
-from pierimpact.design import design_values
 from pierimpact.formulas import amplification
+from pierimpact.procedure import design_values
 from pierimpact.reduction import exact_amplification
 from pierimpact.truck import Truck
 

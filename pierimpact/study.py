@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from pierimpact import domain, formulas
 from pierimpact.cases import CHUNK
-from pierimpact.design import LEVELS, design_values
 from pierimpact.motion import OUTCOMES, Collision, Spring, follow_all
+from pierimpact.procedure import LEVELS, design_values
 from pierimpact.reduction import exact_amplification
 
 Array = NDArray[np.float64]
@@ -26,7 +26,7 @@ SIZE, SEED = 6000, 20170101
 OUTCOME_FILE = Path(__file__).with_name("study.json")
 #: Arguments of the closed spectrum that are fitted, and the values in use.
 COEFFICIENTS = {
-    "hump": formulas.HUMP,
+    "height": formulas.HUMP,
     "end": formulas.HUMP_END,
     "decline": formulas.HUMP_DECLINE,
     "mass_effect": formulas.MASS_EFFECT,

@@ -1,0 +1,42 @@
+"""The motion of engine, body and pier, propagated exactly from one change of regime to the next.
+
+`regimes` says what holds between two changes and what a change brings; `coasting` passes the
+time in which nothing is coupled in closed form; `stepping` sums the coupled motion as its Taylor
+series and ends each step at the first change; `series` finds where that is.
+"""
+
+from pierimpact.motion.coasting import coasted, ringing
+from pierimpact.motion.regimes import (
+    FREE,
+    STEEP,
+    Collision,
+    Law,
+    Position,
+    Spring,
+    State,
+    branch,
+    start,
+)
+from pierimpact.motion.series import ARRAYS, FLOATS
+from pierimpact.motion.stepping import OUTCOMES, expand, follow, follow_all, longest_step
+
+__all__ = [
+    "ARRAYS",
+    "FLOATS",
+    "FREE",
+    "OUTCOMES",
+    "STEEP",
+    "Collision",
+    "Law",
+    "Position",
+    "Spring",
+    "State",
+    "branch",
+    "coasted",
+    "expand",
+    "follow",
+    "follow_all",
+    "longest_step",
+    "ringing",
+    "start",
+]

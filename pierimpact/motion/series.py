@@ -1,0 +1,274 @@
+"""Taylor series over one step, and where a quantity summed from them first rises above zero.
+
+The step is the unit of time: term k is the k-th derivative times h^k, so that the value at a
+fraction θ of the step is Σ terms[k] θ^k/k!, and its rate the same sum from one term further on.
+
+A number is a float for one collision, or an array of shape (n,) for n collisions side by side;
+terms are a list of floats, or an array of shape (terms, n). The same lines serve both, with the
+few functions that differ handed in as `ops`.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import accumulate, repeat
+from operator import mul
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+Real: TypeAlias = Any  # a float, or an array of shape (n,)
+Flag: TypeAlias = Any  # a bool, or an array of shape (n,)
+Terms: TypeAlias = Any  # a list of floats, or an array of shape (terms, n)
+
+TERMS = 30
+PHASE = 3.0  # largest ω h of a step [rad]; the first term left out is PHASE**28/28! = 8e-17
+PARTS = 2  # of a step; in each, the curvature of a quantity changes its sign at most once
+NEVER = 2.0  # a fraction beyond the step
+FACTORIALS = np.array([math.factorial(k) for k in range(TERMS)], dtype=float)[:, None]
+RECIPROCALS = [1.0 / k for k in range(1, TERMS)]
+
+
+class Watched(NamedTuple):
+    """A quantity whose rise above zero ends a regime: level + Σ weight × a motion's derivative."""
+
+    event: int
+    order: int  # of the derivative
+    parts: tuple[tuple[Real, int], ...]  # weights, and which of the motions
+    level: Real
+
+
+Rise: TypeAlias = tuple[int, Real, Flag]  # event, fraction of the step, whether it happens there
+
+
+class Ops(NamedTuple):
+    """What differs between floats and arrays."""
+
+    lib: Any  # the module with sqrt, sin, …
+    where: Callable[[Flag, Real, Real], Real]
+    negate: Callable[[Flag], Flag]
+    some: Callable[[Flag], bool]
+    sizes: Callable[[Terms], Terms]
+    largest: Callable[[Real], float]
+    blank: Callable[[Real, int], Any]  # three series to fill in
+    weights: Callable[[Real, int], Terms]  # θ^k/k!
+    dot: Callable[[Terms, Terms], Real]  # Σ weights × terms
+    fixed: Callable[[list[float], Terms], Real]  # the same, with one set of weights for all
+    rises: Callable[[list[tuple[Watched, Flag]], Sequence[Terms]], list[Rise]]
+
+
+def weights_of_one(theta: float, count: int = TERMS) -> list[float]:
+    """Return θ^k/k! for one fraction, k < count."""
+    return list(accumulate(map(mul, repeat(theta, count - 1), RECIPROCALS), mul, initial=1.0))
+
+
+def weights_of_all(theta: Real, count: int = TERMS) -> Terms:
+    """Return θ^k/k! for fractions of shape (n,), shape (count, n)."""
+    powers = np.empty((count, len(theta)))
+    powers[0] = 1.0
+    power, known = theta, 1
+    while known < count:  # the powers known, times θ^known, are as many more
+        more = min(known, count - known)
+        np.multiply(powers[:more], power, out=powers[known : known + more])
+        power, known = power * power, known + more
+    powers /= FACTORIALS[:count]
+    return powers
+
+
+def terms_needed(part: float) -> int:
+    """Return how many terms a step takes that is a part of the longest."""
+    return 10 + math.ceil(20.0 * math.sqrt(part))
+
+
+NODES = [weights_of_one(part / PARTS) for part in range(PARTS + 1)]
+END = NODES[PARTS]
+
+CROSSES, ARCHES, DIPS, CRESTS = range(1, 5)
+
+
+def first_suspect(terms: Terms, ops: Ops) -> tuple[Flag, Real, Real]:
+    """Find the first part of the step in which a quantity may rise above zero.
+
+    Returns
+    -------
+    due : Flag
+        Whether it is above zero at the start and does not return at once.
+    part : Real
+        The fraction at which the part begins, or NEVER.
+    shape : Real
+        CROSSES: from below to above. The others begin and may end below: ARCHES turns from
+        rising to falling with a curvature of one sign; DIPS and CRESTS change their curvature
+        from negative to positive and back.
+    """
+    where, negate, fixed, some = ops.where, ops.negate, ops.fixed, ops.some
+    width = 1.0 / PARTS
+    rates, bends = terms[1:], terms[2:]
+    f1, r1 = fixed(END, terms), fixed(END, rates)
+    part, shape = NEVER + 0.0 * f1, 0.0 * f1
+    for number in reversed(range(PARTS)):
+        start, end = NODES[number], NODES[number + 1]
+        f, r = (fixed(start, terms), fixed(start, rates)) if number else (terms[0], terms[1])
+        below, ends_above = f <= 0.0, f1 > 0.0
+        suspect = below & ends_above
+        part, shape = where(suspect, number * width, part), where(suspect, CROSSES, shape)
+        # A curve that falls at the end, or rises at the start, does so nowhere faster as long
+        # as it is bent down there: it can be above zero in between only if its tangent is.
+        near = below & (
+            ((r > 0.0) & (f + r * width > 0.0)) | ((r1 < 0.0) & (f1 - r1 * width > 0.0))
+        )
+        if some(near):
+            c, c1 = fixed(start, bends), fixed(end, bends)
+            meets = f * (r - r1) + r * (f1 - f - r1 * width) > 0.0
+            arches = near & negate(ends_above) & (r > 0.0) & (r1 < 0.0) & meets
+            dips = near & (c < 0.0) & (c1 > 0.0) & (r > 0.0)
+            crests = near & negate(ends_above) & (c > 0.0) & (c1 < 0.0) & (r1 < 0.0)
+            bent = where(dips, DIPS, where(crests, CRESTS, ARCHES))
+            part = where(arches | dips | crests, number * width, part)
+            shape = where(arches | dips | crests, bent, shape)
+        due = negate(below) & ((r > 0.0) | ends_above)
+        f1, r1 = f, r
+    return due, part, shape
+
+
+def locate(terms: Terms, part: Real, shape: Real, ops: Ops) -> tuple[Real, Flag]:
+    """Find where a quantity rises above zero in a suspect part.
+
+    Returns
+    -------
+    theta : Real
+        The fraction of the step; the end of the part where it stays below zero.
+    happens : Flag
+        Whether it rises above zero there.
+    """
+    where, dot = ops.where, ops.dot
+    end = part + 1.0 / PARTS
+    high, happens = end, shape == CROSSES
+    turning = ops.negate(happens)
+    if ops.some(turning):
+        rates, bends = terms[1:], terms[2:]
+        dips, crests = shape == DIPS, shape == CRESTS
+        left, right = part, end
+        if ops.some(dips | crests):
+            bend = rise(bends, where(dips, 1.0, -1.0), where(dips | crests, part, end), end, ops)
+            rate = dot(ops.weights(bend, len(terms)), rates)
+            left, right = where(crests, bend, part), where(dips, bend, end)
+            turning = turning & where(dips, rate < 0.0, where(crests, rate > 0.0, True))
+        top = rise(rates, -1.0, where(turning, left, right), right, ops)
+        over = turning & (dot(ops.weights(top, len(terms)), terms) > 0.0)
+        high = where(over, top, end)
+        happens = over | (dot(ops.weights(end, len(terms)), terms) > 0.0)
+    theta = rise(terms, 1.0, where(happens, part, high), high, ops)
+    return theta, happens
+
+
+def rise(terms: Terms, sign: Real, low: Real, high: Real, ops: Ops) -> Real:
+    """Return where sign × the sum rises through zero between `low` and `high`.
+
+    Halley's method, with bisection where it would leave the bracket; `high` where the bracket
+    is empty.
+    """
+    where, dot = ops.where, ops.dot
+    theta = where(low < high, 0.5 * (low + high), high)
+    settled = low >= high
+    rates, bends = terms[1:], terms[2:]
+    for _ in range(60):
+        weights = ops.weights(theta, len(terms))
+        f = sign * dot(weights, terms)
+        r, c = sign * dot(weights, rates), sign * dot(weights, bends)
+        below = f <= 0.0
+        low, high = where(below, theta, low), where(below, high, theta)
+        denominator = 2.0 * r * r - f * c
+        regular = (r > 0.0) & (denominator > 0.0)
+        new = theta - where(regular, 2.0 * f * r / where(regular, denominator, 1.0), 1.0)
+        regular = regular & (new >= low) & (new <= high)
+        new = where(regular, new, 0.5 * (low + high))
+        change = abs(new - theta)
+        theta = where(settled, theta, new)
+        # The error that is left is of the order of the third power of the change.
+        settled = settled | (change <= where(regular, 1e-5, 1e-15))
+        if not ops.some(ops.negate(settled)):
+            break
+    return theta
+
+
+def rises_of_one(flagged: list[tuple[Watched, Flag]], series: Sequence[Terms]) -> list[Rise]:
+    """Return the first rises above zero of the flagged quantities of one collision."""
+    found: list[Rise] = []
+    width = len(series[0]) - 2
+    for (event, order, parts, level), flag in flagged:
+        if not flag:
+            continue
+        terms = [0.0] * width
+        for weight, which in parts:
+            motion = series[which][order : order + width]
+            terms = [term + weight * more for term, more in zip(terms, motion, strict=True)]
+        terms[0] += level
+        due, part, shape = first_suspect(terms, FLOATS)
+        if due:
+            found.append((event, 0.0, True))
+        elif part < NEVER:
+            found.append((event, *locate(terms, part, shape, FLOATS)))
+    return found
+
+
+def rises_of_all(flagged: list[tuple[Watched, Flag]], series: Sequence[Terms]) -> list[Rise]:
+    """Return the first rises above zero of the flagged quantities of n collisions."""
+    # The quantities of all collisions that are flagged are looked into together.
+    groups = [(watched, np.flatnonzero(flag)) for watched, flag in flagged]
+    groups = [(watched, cases) for watched, cases in groups if len(cases)]
+    if not groups:
+        return []
+    terms = np.concatenate([_gather(watched, cases, series) for watched, cases in groups], axis=1)
+    due, part, shape = first_suspect(terms, ARRAYS)
+    theta, happens = np.where(due, 0.0, NEVER), due
+    suspect = np.flatnonzero((part < NEVER) & ~due)
+    if len(suspect):
+        theta[suspect], happens[suspect] = locate(
+            terms[:, suspect], part[suspect], shape[suspect], ARRAYS
+        )
+    found: list[Rise] = []
+    first, size = 0, len(flagged[0][1])
+    for watched, cases in groups:
+        mine = slice(first, first + len(cases))
+        first = mine.stop
+        fraction, certain = np.full(size, NEVER), np.zeros(size, dtype=bool)
+        fraction[cases], certain[cases] = theta[mine], happens[mine]
+        found.append((watched.event, fraction, certain))
+    return found
+
+
+def _gather(watched: Watched, cases: Any, series: Sequence[Terms]) -> Terms:
+    width = len(series[0]) - 2
+    terms = np.zeros((width, len(cases)))
+    for weight, which in watched.parts:
+        motion = series[which][watched.order : watched.order + width]
+        terms += weight[cases] * motion[:, cases]
+    terms[0] += watched.level[cases]
+    return terms
+
+
+FLOATS = Ops(
+    lib=math,
+    where=lambda flag, yes, no: yes if flag else no,
+    negate=lambda flag: not flag,
+    some=bool,
+    sizes=lambda terms: list(map(abs, terms)),
+    largest=lambda value: value,
+    blank=lambda like, count: ([0.0] * count, [0.0] * count, [0.0] * count),
+    weights=weights_of_one,
+    dot=lambda weights, terms: sum(map(mul, weights, terms)),
+    fixed=lambda weights, terms: sum(map(mul, weights, terms)),
+    rises=rises_of_one,
+)
+ARRAYS = Ops(
+    lib=np,
+    where=np.where,
+    negate=np.logical_not,
+    some=np.any,
+    sizes=np.abs,
+    largest=np.max,
+    blank=lambda like, count: np.empty((3, count, len(like))),
+    weights=weights_of_all,
+    dot=lambda weights, terms: np.einsum("kn,kn->n", weights[: len(terms)], terms),
+    fixed=lambda weights, terms: np.array(weights[: len(terms)]) @ terms,
+    rises=rises_of_all,
+)
