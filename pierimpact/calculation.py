@@ -48,6 +48,20 @@ class Calculation:
         """Member forces under the governing reaction as a static force."""
         return self.struck.member_forces(self.governing_peak.reaction)
 
+    @property
+    def utilisations(self) -> dict[str, float]:
+        """Demand over resistance, "shear" and "moment", where the case gives a resistance [-]."""
+        inputs, forces = self.case.inputs, self.member_forces
+        demands = {
+            "shear": (forces.largest_shear.value, inputs.shear_resistance),
+            "moment": (forces.largest_moment.value, inputs.moment_resistance),
+        }
+        return {
+            name: abs(demand) / resistance
+            for name, (demand, resistance) in demands.items()
+            if resistance is not None
+        }
+
 
 def calculate(case: Case) -> Calculation:
     """Calculate a case."""

@@ -7,17 +7,27 @@ from collections.abc import Sequence
 import pierimpact
 from pierimpact.checks import InputError
 
+_REPORT = """\
+Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
+the case file. Where there are more cases than one, summary.html, summary.pdf and summary.csv have
+a row for each. A case that fails stops none of the others; it is reported at the end.
+"""
+_EXIT_CODES = """\
+Exit code: 0 if every case has its report; 2 if only bad input stood in the way; 1 if anything
+else failed; 130 if interrupted, which leaves whole files only.
+"""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code: 2 for bad input, 1 for what else fails."""
     options = _parser().parse_args(arguments)
     try:
-        return _report(options.case, options.output)
+        return _report(options.cases, options.output)
     except InputError as error:
-        print(f"pierimpact: {error}", file=sys.stderr)
+        _complain(error)
         return 2
-    except KeyboardInterrupt:
-        print("pierimpact: interrupted, nothing written", file=sys.stderr)
+    except KeyboardInterrupt as interrupt:
+        _complain(f"interrupted, {interrupt or 'nothing written'}")
         return 130
 
 
@@ -31,33 +41,52 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     report = commands.add_parser(
         "report",
-        help="calculate a case and write its report",
-        description="Calculate a case and write NAME.pdf, NAME.html and NAME.ipynb, where NAME is "
-        "the name of the case file.",
+        help="calculate cases and write their reports",
+        description=_REPORT,
+        epilog=_EXIT_CODES,
     )
-    report.add_argument("case", metavar="CASE.yaml", help="case file")
+    report.add_argument(
+        "cases",
+        metavar="CASE.yaml",
+        nargs="+",
+        help="case file, or a folder, which stands for all *.yaml and *.yml in it, sorted by name; "
+        "its subfolders are left alone",
+    )
     report.add_argument(
         "--output", metavar="DIR", default="reports", help="folder to write to (default: reports)"
     )
     return parser
 
 
-def _report(case: str, output: str) -> int:
+def _report(paths: Sequence[str], output: str) -> int:
     try:
-        from pierimpact.report import ReportError, write_report
+        from pierimpact.batch import find_cases, write_reports
+        from pierimpact.report import ReportError
     except ModuleNotFoundError as error:
-        print(
-            f"pierimpact: reports need {error.name}: pip install 'pierimpact[report]'",
-            file=sys.stderr,
-        )
+        _complain(f"reports need {error.name}: pip install 'pierimpact[report]'")
         return 1
+    cases = find_cases(paths)
     try:
-        files = write_report(case, output)
+        batch = write_reports(cases, output)
     except ReportError as error:
-        print(f"pierimpact: {error}", file=sys.stderr)
+        _complain(error)
         return 1
-    for warning in files.warnings:
-        print(f"pierimpact: warning: {warning}", file=sys.stderr)
-    for file in (files.notebook, files.html, files.pdf):
-        print(file)
-    return 0
+    for report in batch.reports:
+        print(report.notebook, report.html, report.pdf, sep="\n")
+    if batch.summary:
+        print(*batch.summary, sep="\n")
+    sys.stdout.flush()  # so that what went wrong comes last
+    for report in batch.reports:
+        for warning in report.warnings:
+            _complain(f"warning: {report.pdf.name}: {warning}")
+    for failure in batch.failures:
+        _complain(failure.reason)
+    if len(cases) > 1 and batch.failures:
+        _complain(f"{len(batch.failures)} of {len(cases)} cases have no report")
+    if not batch.failures:
+        return 0
+    return 2 if all(failure.bad_input for failure in batch.failures) else 1
+
+
+def _complain(message: object) -> None:
+    print(f"pierimpact: {message}", file=sys.stderr)

@@ -14,6 +14,8 @@ from pierimpact.motion import OUTCOMES, Law, State, follow, follow_all
 from pierimpact.pier import EquivalentPier
 from pierimpact.truck import Truck
 
+SHORTEST = 1e-13  # step worth a place in the history; shorter ones are round-off [s]
+
 
 def simulate(
     truck: Truck, pier: EquivalentPier, speed: float, duration: float = 0.0
@@ -47,7 +49,7 @@ def simulate(
     steps: list[RecordedStep] = []
 
     def record(state: State, law: Law, length: float) -> None:
-        if length > 0.0:
+        if length > SHORTEST:
             steps.append((state, law, length))
 
     end = follow(case, duration, record)
@@ -121,7 +123,7 @@ def peak_reactions(
         found[2, part] *= case.pier_stiffness
         found[4, part] *= case.pier_stiffness
     engine_contact, cargo_contact, engine, engine_time, cargo, cargo_time = found.reshape(
-        -1, *shape
+        len(OUTCOMES), *shape
     )
     return PeakReactions(
         engine=engine,

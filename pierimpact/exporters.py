@@ -10,18 +10,18 @@ import importlib.util
 import re
 import subprocess
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 import typst
 from jinja2 import Environment
 from nbconvert.exporters.templateexporter import TemplateExporter
-from nbformat import NotebookNode
+from nbformat import NotebookNode, v4
 from pypandoc import get_pandoc_path
 from traitlets import default
 
-from pierimpact.sheet.blocks import SHEET_MIME, TYPST_MIME
+from pierimpact.sheet.blocks import SHEET_MIME, TYPST_MIME, Block
 from pierimpact.sheet.markup import typst_string
 
 _PACKAGE = Path(__file__).parent
@@ -33,6 +33,16 @@ def templates_folder() -> Path:
     """Return the folder of the templates: in an installed package, or beside it in a checkout."""
     installed = _PACKAGE / "templates"
     return installed if installed.is_dir() else _PACKAGE.parent / "templates"
+
+
+def notebook_of(blocks: Iterable[Block]) -> NotebookNode:
+    """Return a notebook as if its cells had returned these blocks."""
+    new: Any = v4
+    outputs = [new.new_output("display_data", block._repr_mimebundle_()) for block in blocks]
+    notebook: NotebookNode = new.new_notebook(
+        cells=[new.new_code_cell(outputs=[output]) for output in outputs]
+    )
+    return notebook
 
 
 class _SheetExporter(TemplateExporter):
@@ -59,6 +69,7 @@ class _SheetExporter(TemplateExporter):
             "title": "Notebook",
             "date": "2000-01-01",
             "paper": "a4",
+            "landscape": False,
             "entries": {},
         }
         pieces = []
@@ -102,6 +113,7 @@ class _SheetExporter(TemplateExporter):
             input=f"\n\n{_CUT}\n\n".join(pieces),
             capture_output=True,
             encoding="utf-8",
+            start_new_session=True,  # where Ctrl-C does not reach it: that is for us to handle
         )
         if done.returncode != 0:
             raise RuntimeError(f"pandoc: {done.stderr.strip()}")

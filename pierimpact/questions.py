@@ -7,9 +7,9 @@ from pierimpact.checker import Question, Trap
 from pierimpact.codes import aashto_lrfd, en_1991_1_7_hard_impact
 from pierimpact.collision import peak_reactions, simulate
 from pierimpact.design import design_reaction
+from pierimpact.formulas import approach_speed
 from pierimpact.history import CollisionHistory
-from pierimpact.reduction import approach_speed, body_frequency
-from pierimpact.scenario import FREQUENCIES, REFERENCE, Scenario
+from pierimpact.scenario import FREQUENCIES, REFERENCE, Scenario, body_frequency
 from pierimpact.units import printed
 
 _KMH = 1.0 / 3.6
@@ -26,6 +26,11 @@ def _energy(speed: float, mass: float = REFERENCE.mass) -> float:
 def _stopping_speed(force: float, mass: float, length: float) -> float:
     """Return the speed that a constant force over a length takes off a mass altogether."""
     return math.sqrt(2.0 * force * length / mass)
+
+
+def _speed_left(force: float, mass: float, length: float) -> float:
+    """Return what is left of 60 km/h when a constant force has slowed a mass over a length."""
+    return float(approach_speed(_SLOW, force / mass, length))
 
 
 @cache
@@ -79,24 +84,16 @@ _COLLISION = (
         f"{_ENGINE.plateau_length:g} m. The truck comes at 60 km/h. How fast is the engine when "
         "it meets a pier that does not give way?",
         dimension="speed",
-        answer=lambda: float(
-            approach_speed(
-                _SLOW, REFERENCE.engine_mass, _ENGINE.plateau_force, _ENGINE.plateau_length
-            )
+        answer=lambda: _speed_left(
+            _ENGINE.plateau_force, REFERENCE.engine_mass, _ENGINE.plateau_length
         ),
         traps=(
             Trap(
-                lambda: float(
-                    approach_speed(_SLOW, REFERENCE.body_mass, _HELD, _BODY.plateau_length)
-                ),
+                lambda: _speed_left(_HELD, REFERENCE.body_mass, _BODY.plateau_length),
                 _ENGINE_NOT_CARGO,
             ),
             Trap(
-                lambda: float(
-                    approach_speed(
-                        _SLOW, REFERENCE.mass, _ENGINE.plateau_force, _ENGINE.plateau_length
-                    )
-                ),
+                lambda: _speed_left(_ENGINE.plateau_force, REFERENCE.mass, _ENGINE.plateau_length),
                 "That slows the whole truck; P₁ acts on the engine alone.",
             ),
             Trap(
@@ -222,7 +219,7 @@ def _beta(body: str) -> float:
     mass, spring = (
         (REFERENCE.engine_mass, _ENGINE) if body == "engine" else (REFERENCE.body_mass, _BODY)
     )
-    return _MIDDLE.strike.pier.frequency / float(body_frequency(mass, spring.stiffness))
+    return _MIDDLE.strike.pier.frequency / body_frequency(mass, spring.stiffness)
 
 
 _REDUCTION = (

@@ -2,34 +2,41 @@
 
 import contextlib
 import datetime
-import os
+import json
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tqdm import tqdm
-
-from pierimpact.casefile import case_values, file_hash, read_case
+from pierimpact.casefile import Case, case_values, file_hash, read_case
 from pierimpact.checks import InputError
 
 _PACKAGE = Path(__file__).parent
+# Lets the kernel, which starts in another folder, import this very package.
+_IMPORTABLE_PACKAGE = (
+    f"--IPKernelApp.exec_lines=import sys; sys.path.insert(0, {str(_PACKAGE.parent)!r})"
+)
 
 
 class ReportError(RuntimeError):
     """The report of a good case could not be made; the message says why in one line."""
 
 
+class OutputError(InputError):
+    """The folder to write to cannot be written to, by no report."""
+
+
 class Report(NamedTuple):
-    """The files of a report, and what is wrong with them."""
+    """The files of a report, what is wrong with them, and the case they report."""
 
     notebook: Path
     html: Path
     pdf: Path
     warnings: list[str]
+    case: Case
 
 
 def report_notebook() -> Path:
@@ -38,10 +45,22 @@ def report_notebook() -> Path:
     return installed if installed.is_file() else _PACKAGE.parent / "notebooks" / "report.ipynb"
 
 
+def stages() -> int:
+    """Return how often a report tells of its progress: per cell, and for HTML and PDF."""
+    notebook = json.loads(report_notebook().read_text(encoding="utf-8"))
+    kinds = [cell["cell_type"] for cell in notebook["cells"]]
+    return kinds.count("code") + 3  # papermill adds a cell
+
+
 def write_report(
-    case_path: str | Path, output_dir: str | Path = "reports", *, progress: bool = True
+    case_path: str | Path,
+    output_dir: str | Path = "reports",
+    *,
+    on_stage: Callable[[], object] = lambda: None,
 ) -> Report:
     """Write the report of a case file: NAME.ipynb, NAME.html and NAME.pdf, all or none.
+
+    Reports may be written in several threads at a time.
 
     Parameters
     ----------
@@ -49,42 +68,65 @@ def write_report(
         Case file; its name without ending is NAME.
     output_dir : str or Path, optional
         Folder to write to; it is made if there is none.
-    progress : bool, optional
-        Whether to show a progress bar, where there is a terminal to show it on.
+    on_stage : callable, optional
+        Called after each of its `stages`, perhaps in other threads; what it raises ends the
+        report.
 
     Raises
     ------
     InputError
-        When the case file breaks a rule; nothing is written.
+        When the case file breaks a rule, or the folder cannot be written to, which is an
+        OutputError; nothing is written.
     ReportError
         When the notebook or a conversion fails; the notebook is kept as NAME.failed.ipynb.
     """
     case_path, output_dir = Path(case_path).absolute(), Path(output_dir).absolute()
-    read_case(case_path)
+    case = read_case(case_path)
     parameters = _parameters(case_path)
     name = case_path.stem
-    try:
-        output_dir.mkdir(parents=True, exist_ok=True)
-        folder = tempfile.TemporaryDirectory(dir=output_dir, prefix=f".{name}-")
-    except OSError as error:
-        raise InputError(f"output {output_dir} cannot be written to: {error.strerror}") from None
     failed = output_dir / f"{name}.failed.ipynb"
-    files = {ending: Path(folder.name) / f"{name}.{ending}" for ending in ("ipynb", "html", "pdf")}
-    with folder, tqdm(desc=name, disable=None if progress else True, leave=False) as bar:
+    with folder_for(output_dir, name) as folder:
+        files = {ending: folder / f"{name}.{ending}" for ending in ("ipynb", "html", "pdf")}
         try:
-            notebook = _execute(parameters, case_path.parent, files["ipynb"], bar)
-            warnings = _convert(notebook, files, bar)
+            notebook = _execute(parameters, case_path.parent, files["ipynb"], on_stage)
+            warnings = _convert(notebook, files, on_stage)
+            put_in_place(files.values(), output_dir)
         except Exception as error:
-            message = _reason(error)
+            message = f"{case_path.name}: {reason_of(error)}"
             if files["ipynb"].is_file():
                 files["ipynb"].replace(failed)
                 message += f"; the notebook is kept as {failed}"
             raise ReportError(message) from error
-        for file in files.values():
-            file.replace(output_dir / file.name)
     failed.unlink(missing_ok=True)
     notebook_path, html, pdf = (output_dir / file.name for file in files.values())
-    return Report(notebook_path, html, pdf, warnings)
+    return Report(notebook_path, html, pdf, warnings, case)
+
+
+@contextlib.contextmanager
+def folder_for(output_dir: Path, name: str) -> Iterator[Path]:
+    """Make a folder in `output_dir` to write files called `name` in; it is gone afterwards.
+
+    Raises
+    ------
+    OutputError
+        When it cannot be made.
+    """
+    try:
+        output_dir.mkdir(parents=True, exist_ok=True)
+        folder = tempfile.TemporaryDirectory(dir=output_dir, prefix=f".{name}-")
+    except OSError as error:
+        raise OutputError(f"output {output_dir} cannot be written to: {error.strerror}") from None
+    with folder:
+        yield Path(folder.name)
+
+
+def put_in_place(files: Iterable[Path], output_dir: Path) -> None:
+    """Move finished files to where they belong, the last first.
+
+    That is the one most likely to be open in a viewer that locks it.
+    """
+    for file in reversed(list(files)):
+        file.replace(output_dir / file.name)
 
 
 def _parameters(case_path: Path) -> dict[str, Any]:
@@ -99,44 +141,46 @@ def _parameters(case_path: Path) -> dict[str, Any]:
     }
 
 
-def _execute(parameters: dict[str, Any], folder: Path, output: Path, bar: Any) -> Any:
+def _execute(
+    parameters: dict[str, Any], folder: Path, output: Path, on_stage: Callable[[], object]
+) -> Any:
     """Execute the notebook in the case file's folder and return it."""
     with _without_web_address_grammar():
         papermill = import_module("papermill")
         config = import_module("traitlets.config").Config()
     config.KernelManager.transport_encryption = "auto"  # or else the kernel prints a warning
     # The exporters take a while to import: that is done while the kernel works.
-    with ThreadPoolExecutor(1) as executor, _importable_package():
+    with ThreadPoolExecutor(1) as executor:
         executor.submit(import_module, "pierimpact.exporters")
-        notebook = papermill.iorw.load_notebook_node(str(report_notebook()))
-        bar.reset(total=sum(cell.cell_type == "code" for cell in notebook.cells) + 3)
         return papermill.execute_notebook(
             report_notebook(),
             output,
             parameters,
-            cwd=folder,
+            # Papermill's own cwd is that of the process, which other reports share.
+            resources={"metadata": {"path": str(folder)}},
+            extra_arguments=[_IMPORTABLE_PACKAGE],
             kernel_name="python3",
             progress_bar=False,
             request_save_on_cell_execute=False,
             shutdown_kernel="immediate",  # it has nothing to put away
             config=config,
-            on_cell_executed=lambda **_: bar.update(),
+            on_cell_executed=lambda **_: on_stage(),
         )
 
 
-def _convert(notebook: Any, files: dict[str, Path], bar: Any) -> list[str]:
+def _convert(notebook: Any, files: dict[str, Path], on_stage: Callable[[], object]) -> list[str]:
     """Write the executed notebook as HTML and as PDF; return the warnings."""
     exporters = import_module("pierimpact.exporters")
 
     def write_html() -> None:
         page, _ = exporters.SheetHTMLExporter().from_notebook_node(notebook)
         files["html"].write_text(page, encoding="utf-8")
-        bar.update()
+        on_stage()
 
     def write_pdf() -> list[str]:
         pdf, resources = exporters.SheetPDFExporter().from_notebook_node(notebook)
         files["pdf"].write_bytes(pdf)
-        bar.update()
+        on_stage()
         return list(resources["warnings"])
 
     with ThreadPoolExecutor(2) as executor:
@@ -145,26 +189,12 @@ def _convert(notebook: Any, files: dict[str, Path], bar: Any) -> list[str]:
         return pdf.result()
 
 
-def _reason(error: Exception) -> str:
+def reason_of(error: Exception) -> str:
     """Return in one line what failed."""
     if type(error).__name__ == "PapermillExecutionError":
         message = str(error.evalue).partition("\n")[0]  # type: ignore[attr-defined]
         return f"the notebook failed: {error.ename}: {message}"  # type: ignore[attr-defined]
     return f"{type(error).__name__}: {str(error).partition(chr(10))[0]}"
-
-
-@contextlib.contextmanager
-def _importable_package() -> Iterator[None]:
-    """Let the kernel, which starts in another folder, import this very package."""
-    before = os.environ.get("PYTHONPATH")
-    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (str(_PACKAGE.parent), before)))
-    try:
-        yield
-    finally:
-        if before is None:
-            del os.environ["PYTHONPATH"]
-        else:
-            os.environ["PYTHONPATH"] = before
 
 
 @contextlib.contextmanager
@@ -182,4 +212,4 @@ def _without_web_address_grammar() -> Iterator[None]:
     try:
         yield
     finally:
-        del sys.modules[absent]
+        sys.modules.pop(absent, None)  # another thread may have been here first

@@ -14,9 +14,9 @@ from pierimpact.checks import InputError
 from pierimpact.collision import peak_reactions, simulate
 from pierimpact.column import PierColumn, StruckColumn
 from pierimpact.crush import CrushSpring
-from pierimpact.design import design_values
 from pierimpact.history import CollisionHistory
 from pierimpact.pier import EquivalentPier
+from pierimpact.procedure import design_values
 from pierimpact.sections import CircularSection
 from pierimpact.truck import Truck
 
@@ -65,6 +65,11 @@ def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -
         full={"engine": peaks.engine, "cargo": peaks.cargo},
         reduced={body: np.asarray(reduced[body]) for body in ("engine", "cargo")},
     )
+
+
+def body_frequency(mass: float, stiffness: float) -> float:
+    """Frequency f_i = √(k_i/m_i)/2π of a body on its steep spring [Hz]."""
+    return math.sqrt(stiffness / mass) / (2.0 * math.pi)
 
 
 @dataclass(frozen=True, kw_only=True)

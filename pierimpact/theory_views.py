@@ -27,10 +27,11 @@ from pierimpact.chart import (
 from pierimpact.codes import code_forces
 from pierimpact.collision import peak_reactions
 from pierimpact.crush import CrushSpring
-from pierimpact.design import LEVELS, design_reaction, design_values
+from pierimpact.design import design_reaction
 from pierimpact.formulas import amplification
-from pierimpact.reduction import body_frequency, exact_amplification
-from pierimpact.scenario import FREQUENCIES, Scenario, Strike
+from pierimpact.procedure import LEVELS, design_values
+from pierimpact.reduction import exact_amplification
+from pierimpact.scenario import FREQUENCIES, Scenario, Strike, body_frequency
 from pierimpact.units import printed
 
 #: How far each parameter is moved in the sensitivity view, as in the parametric study.
@@ -135,7 +136,7 @@ def amplification_figure(strike: Strike) -> str:
         "engine": (truck.engine_mass, truck.engine_spring),
         "cargo": (truck.body_mass, truck.body_spring),
     }
-    own = [float(body_frequency(mass, spring.stiffness)) for mass, spring in parts.values()]
+    own = [body_frequency(mass, spring.stiffness) for mass, spring in parts.values()]
     mus = [values[f"{body}_mu"] for body in parts]
     es = [spring.restitution for _, spring in parts.values()]
     curves = _amplifications(*own, *mus, *es, zeta)

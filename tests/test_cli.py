@@ -6,6 +6,7 @@ import pytest
 
 import pierimpact
 from pierimpact import cli
+from pierimpact.casefile import read_case
 from pierimpact.report import Report, ReportError
 
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
@@ -59,27 +60,33 @@ def test_no_such_file_in_a_process_of_its_own(tmp_path):
 
 
 def test_what_is_printed(monkeypatch, capsys):
-    report = Report(Path("a.ipynb"), Path("a.html"), Path("a.pdf"), ["a letter is missing"])
-    monkeypatch.setattr("pierimpact.report.write_report", lambda case, output: report)
+    files = Path("a.ipynb"), Path("a.html"), Path("a.pdf")
+
+    def made(case, output, on_stage):
+        return Report(*files, ["a letter is missing"], read_case(EXAMPLE))
+
+    monkeypatch.setattr("pierimpact.batch.write_report", made)
     assert cli.main(["report", "a.yaml"]) == 0
     printed = capsys.readouterr()
     assert printed.out.split() == ["a.ipynb", "a.html", "a.pdf"]
-    assert printed.err == "pierimpact: warning: a letter is missing\n"
+    assert printed.err == "pierimpact: warning: a.pdf: a letter is missing\n"
 
 
 def test_a_failure_is_one_line_and_code_1(monkeypatch, capsys):
-    def fail(case, output):
-        raise ReportError("the notebook failed: ValueError: why; the notebook is kept as x")
+    def fail(case, output, on_stage):
+        raise ReportError("a.yaml: the notebook failed: ValueError: why; it is kept as x")
 
-    monkeypatch.setattr("pierimpact.report.write_report", fail)
+    monkeypatch.setattr("pierimpact.batch.write_report", fail)
     assert cli.main(["report", "a.yaml"]) == 1
-    assert capsys.readouterr().err.startswith("pierimpact: the notebook failed: ValueError: why")
+    assert capsys.readouterr().err == (
+        "pierimpact: a.yaml: the notebook failed: ValueError: why; it is kept as x\n"
+    )
 
 
 def test_interrupted(monkeypatch, capsys):
-    def interrupt(case, output):
+    def interrupt(case, output, on_stage):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("pierimpact.report.write_report", interrupt)
+    monkeypatch.setattr("pierimpact.batch.write_report", interrupt)
     assert cli.main(["report", "a.yaml"]) == 130
-    assert capsys.readouterr().err == "pierimpact: interrupted, nothing written\n"
+    assert capsys.readouterr().err == "pierimpact: interrupted, 0 of 1 reports written\n"

@@ -95,7 +95,7 @@ def si(tmp_path_factory):
     folder = tmp_path_factory.mktemp("si")
     case = folder / "tti-column.yaml"
     case.write_text(EXAMPLE.read_text("utf-8") + "date: 2026-02-03\n", encoding="utf-8")
-    return case, write_report(case, folder / "out", progress=False)
+    return case, write_report(case, folder / "out")
 
 
 @pytest.fixture(scope="module")
@@ -103,7 +103,7 @@ def us(tmp_path_factory):
     folder = tmp_path_factory.mktemp("us")
     case = folder / "us.yaml"
     case.write_text(yaml.safe_dump(US_CASE, allow_unicode=True), encoding="utf-8")
-    return case, write_report(case, folder / "out", progress=False)
+    return case, write_report(case, folder / "out")
 
 
 @pytest.fixture(params=["si", "us"])
@@ -138,7 +138,7 @@ def test_the_peaks_of_the_calculation_are_printed(made):
 
 def test_the_same_bytes_twice(si, tmp_path):
     case, files = si
-    again = write_report(case, tmp_path, progress=False)
+    again = write_report(case, tmp_path)
     assert again.html.read_bytes() == files.html.read_bytes()
     assert again.pdf.read_bytes() == files.pdf.read_bytes()
 
@@ -339,14 +339,14 @@ def test_a_bad_case_writes_nothing(tmp_path):
     case = tmp_path / "case.yaml"
     case.write_text("speed: 80\n", encoding="utf-8")
     with pytest.raises(InputError, match=r"^case\.yaml: "):
-        write_report(case, tmp_path / "out", progress=False)
+        write_report(case, tmp_path / "out")
     assert [path.name for path in tmp_path.iterdir()] == ["case.yaml"]
 
 
 def test_a_folder_that_cannot_be(si, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot be written to"):
-        write_report(si[0], tmp_path / "file", progress=False)
+        write_report(si[0], tmp_path / "file")
 
 
 def test_a_failing_notebook_is_kept_and_named(si, tmp_path, monkeypatch):
@@ -359,7 +359,7 @@ def test_a_failing_notebook_is_kept_and_named(si, tmp_path, monkeypatch):
     before.parent.mkdir()
     before.write_bytes(b"of the last time")
     with pytest.raises(ReportError, match="ValueError: the last cell") as caught:
-        write_report(si[0], tmp_path / "out", progress=False)
+        write_report(si[0], tmp_path / "out")
     kept = tmp_path / "out" / "tti-column.failed.ipynb"
     assert str(kept) in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -374,7 +374,7 @@ def test_a_failing_conversion_leaves_no_half_report(si, tmp_path, monkeypatch):
     (templates / "pierimpact-pdf" / "index.typ.j2").write_text("#nonsense")
     monkeypatch.setattr("pierimpact.exporters.templates_folder", lambda: templates)
     with pytest.raises(ReportError, match="unknown variable: nonsense"):
-        write_report(si[0], tmp_path / "out", progress=False)
+        write_report(si[0], tmp_path / "out")
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["tti-column.failed.ipynb"]
 
 

@@ -51,6 +51,8 @@ class TitleBlock(Block):
         Date of the sheet, as 2026-01-31.
     paper : {"a4", "us-letter"}
         Paper of the PDF.
+    landscape : bool, optional
+        Whether the sheet is wider than it is high.
     """
 
     title: str
@@ -58,6 +60,7 @@ class TitleBlock(Block):
     entries: dict[str, str]
     date: str
     paper: str
+    landscape: bool = False
 
     def to_html(self) -> str:
         """Return the block as HTML."""
@@ -84,6 +87,7 @@ class TitleBlock(Block):
             "title": self.title,
             "date": self.date,
             "paper": self.paper,
+            "landscape": self.landscape,
             "entries": self.entries,
         }
         return super()._repr_mimebundle_() | {SHEET_MIME: sheet}

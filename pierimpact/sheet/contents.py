@@ -67,7 +67,7 @@ def summary(calculation: Calculation) -> Block:
     ]
     results += [
         (f"Utilisation in {name}", Printed(rounded(ratio, 3), ""), _verdict(ratio))
-        for name, ratio in _utilisations(calculation)
+        for name, ratio in calculation.utilisations.items()
     ]
     return Headline(results=results)
 
@@ -200,7 +200,7 @@ def peaks_table(calculation: Calculation) -> Block:
 def member_forces_table(calculation: Calculation) -> Block:
     """Return support forces and extreme member forces under the governing reaction."""
     system, forces = calculation.case.inputs.units, calculation.member_forces
-    resistances = dict(_utilisations(calculation))
+    resistances = calculation.utilisations
     shear, moment = forces.largest_shear, forces.largest_moment
     values = [
         ("Force on the base", r"R \cdot R_\mathrm{b}", forces.base_force, "force", ""),
@@ -232,15 +232,6 @@ def member_forces_table(calculation: Calculation) -> Block:
         rows=rows,
         strong=[5, 6],
     )
-
-
-def _utilisations(calculation: Calculation) -> list[tuple[str, float]]:
-    inputs, forces = calculation.case.inputs, calculation.member_forces
-    demands = (
-        ("shear", forces.largest_shear.value, inputs.shear_resistance),
-        ("moment", forces.largest_moment.value, inputs.moment_resistance),
-    )
-    return [(name, abs(value) / limit) for name, value, limit in demands if limit is not None]
 
 
 def _verdict(ratio: float) -> str:

@@ -7,6 +7,7 @@ Typst.
 
 import html
 from dataclasses import dataclass
+from urllib.parse import quote
 
 from pierimpact.units import Printed
 
@@ -25,7 +26,15 @@ class Code:
     text: str
 
 
-Piece = str | Tex | Code
+@dataclass(frozen=True)
+class Link:
+    """Text that leads to a file beside the page; on paper, the text alone."""
+
+    text: str
+    file_name: str
+
+
+Piece = str | Tex | Code | Link
 Inline = Piece | tuple[Piece, ...]  #: one piece of text, or a run of them
 
 
@@ -37,6 +46,9 @@ def to_html(inline: Inline) -> str:
         return rf'<span class="math">\({html.escape(inline.source)}\)</span>'
     if isinstance(inline, Code):
         return f"<code>{html.escape(inline.text)}</code>"
+    if isinstance(inline, Link):
+        # The dot keeps what stands before a colon in a file's name from being a protocol.
+        return f'<a href="./{quote(inline.file_name)}">{html.escape(inline.text)}</a>'
     return html.escape(inline)
 
 
@@ -48,7 +60,8 @@ def to_typst(inline: Inline) -> str:
         return f"#tex({typst_string(inline.source)});"
     if isinstance(inline, Code):
         return f"#raw({typst_string(inline.text)});"
-    return f"#{typst_string(inline)};"
+    text = inline.text if isinstance(inline, Link) else inline
+    return f"#{typst_string(text)};"
 
 
 def typst_string(text: str) -> str:

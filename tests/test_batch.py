@@ -1,0 +1,405 @@
+"""Many cases at once: a report each, their summary, and what is said of those that fail."""
+
+import csv
+import html
+import io
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from urllib.parse import unquote
+
+import pypdf
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pierimpact import batch as batch_module
+from pierimpact import cli
+from pierimpact.batch import OutputError, find_cases, write_reports
+from pierimpact.calculation import calculate
+from pierimpact.casefile import read_case
+from pierimpact.checks import InputError
+from pierimpact.report import Report, ReportError, stages
+from pierimpact.sheet.summary_table import Row, no_formula, summary_blocks, summary_csv
+from pierimpact.units import QUANTITIES, parse, printed
+
+ROOT = Path(__file__).parent.parent
+EXAMPLE = (ROOT / "notebooks" / "tti-column.yaml").read_text("utf-8") + "date: 2026-02-03\n"
+
+
+def write_case(path, **changes):
+    """Write the example to a file, with other values, and return the file."""
+    text = EXAMPLE
+    for key, value in changes.items():
+        text = re.sub(rf"^{key}: .*\n", "", text, flags=re.MULTILINE) + f"{key}: {value}\n"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+class Bar:
+    """Stands in for the progress bar."""
+
+    def __init__(self, **options):
+        self.total, self.updates = options["total"], []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        pass
+
+    def update(self, count=1):
+        self.updates.append(count)
+
+    def set_description(self, words):
+        self.words = words
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Two good cases, one of them odd, and three bad ones, from two folders."""
+    root = tmp_path_factory.mktemp("batch")
+    folder, other = root / "cases", root / "other"
+    folder.mkdir()
+    other.mkdir()
+    write_case(folder / "P 1 & <b>.yaml", shear_resistance="2.5 MN", moment_resistance="9 MN*m")
+    write_case(folder / "P3.yaml", sped="80 km/h")
+    (folder / "P4.yml").write_bytes(b"\xff")
+    (folder / "P5.yaml").symlink_to("nowhere")
+    write_case(other / "A.yaml", project="'=1+1'", element="'@x;-y'", speed="20 km/h")
+    bars = []
+
+    def bar(**options):
+        bars.append(Bar(**options))
+        return bars[-1]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(batch_module, "tqdm", bar)
+        cases = find_cases([folder, other / "A.yaml"])
+        result = write_reports(cases, root / "out")
+    return cases, result, root / "out", bars[0]
+
+
+def rows_of(page):
+    """Return the rows of the tables of a page as lists of texts."""
+    return [
+        [
+            html.unescape(re.sub("<[^>]+>", "", cell)).rstrip("\u2007\u2008")
+            for cell in re.findall(r"<t[hd].*?</t[hd]>", row, re.DOTALL)
+        ]
+        for row in re.findall(r"<tr.*?</tr>", page, re.DOTALL)
+    ]
+
+
+def test_a_folder_stands_for_its_cases_in_the_order_of_their_names(tmp_path):
+    for name in ("b.yaml", "a.yml", "C.YAML", ".hidden.yaml", "notes.txt", "truck.toml"):
+        (tmp_path / name).touch()
+    (tmp_path / "below").mkdir()
+    (tmp_path / "below" / "d.yaml").touch()
+    found = find_cases([tmp_path / "b.yaml", tmp_path, "nowhere.yaml", tmp_path / "." / "a.yml"])
+    expected = [tmp_path / name for name in ("b.yaml", "C.YAML", "a.yml")]
+    assert found == [*expected, Path("nowhere.yaml")]
+
+
+@pytest.mark.parametrize("files", [[], ["notes.txt"]])
+def test_a_folder_without_case(tmp_path, capsys, files):
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    for name in files:
+        (folder / name).touch()
+    good = write_case(tmp_path / "good.yaml")
+    output = tmp_path / "out"
+    assert cli.main(["report", str(good), str(folder), "--output", str(output)]) == 2
+    printed_lines = capsys.readouterr()
+    assert printed_lines.out == ""
+    assert printed_lines.err == (
+        f"pierimpact: {folder}: no case in this folder, no *.yaml and no *.yml\n"
+    )
+    assert not output.exists()
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "message"),
+    [
+        ("a/P1.yaml", "b/P1.yaml", "{} and {} would write files of the same name"),
+        ("a/P1.yaml", "a/P1.yml", "{} and {} would write files of the same name"),
+        ("a/P1.yaml", "b/p1.yaml", "{} and {} would write files of the same name"),
+        ("a/P1.failed.yaml", "b/P1.yaml", "{} and {} would write files of the same name"),
+        ("a/P1.yaml", "b/Summary.yaml", "{1} would overwrite the summary of the cases"),
+    ],
+)
+def test_no_case_overwrites_another(tmp_path, first, second, message):
+    paths = [tmp_path / first, tmp_path / second]
+    with pytest.raises(InputError, match=re.escape(message.format(*paths))):
+        find_cases(paths)
+    assert find_cases(paths[1:]) == paths[1:]
+
+
+def test_each_good_case_has_its_report_and_all_a_summary(made):
+    cases, result, output, _ = made
+    names = ["P 1 & <b>", "A"]
+    assert [report.pdf.stem for report in result.reports] == names
+    expected = {f"{name}.{ending}" for name in names for ending in ("ipynb", "html", "pdf")}
+    expected |= {f"summary.{ending}" for ending in ("html", "pdf", "csv")}
+    assert {path.name for path in output.iterdir()} == expected
+    assert set(result.summary) == {output / f"summary.{end}" for end in ("html", "pdf", "csv")}
+    assert len(cases) == 5
+
+
+def test_each_bad_case_has_one_line_that_says_why(made):
+    reasons = [failure.reason for failure in made[1].failures]
+    assert all(failure.bad_input for failure in made[1].failures)
+    assert reasons == [
+        "P3.yaml: 'sped' is not a key of a case file; did you mean speed?",
+        "P4.yml: is not UTF-8 text",
+        "P5.yaml: cannot be read: No such file or directory",
+    ]
+    page = html.unescape((made[2] / "summary.html").read_text("utf-8"))
+    sheet = pypdf.PdfReader(made[2] / "summary.pdf").pages[0].extract_text()
+    for reason in reasons:
+        assert reason in page
+        assert reason in sheet
+
+
+def test_the_progress_bar_counts_every_stage_of_every_case(made):
+    cases, _, _, bar = made
+    assert bar.total == sum(bar.updates) == len(cases) * stages()
+    # All that a good case has left at its end is nothing, and a bad one all.
+    assert sorted(count for count in bar.updates if count != 1) == [0, 0, *[stages()] * 3]
+    assert bar.words == "5 of 5 cases"
+
+
+def test_the_summary_has_the_values_of_the_reports(made):
+    _, result, output, _ = made
+    rows = rows_of((output / "summary.html").read_text("utf-8"))
+    sheet = "".join(page.extract_text() for page in pypdf.PdfReader(output / "summary.pdf").pages)
+    for report in result.reports:
+        outcome = calculate(report.case)
+        history = outcome.history
+        cargo = history.cargo_peak
+        of_the_report = html.unescape(report.html.read_text("utf-8"))
+        (results,) = (row for row in rows if row[0] == report.html.stem and row[5] in ROLES)
+        expected = [
+            printed(outcome.pier.frequency, "frequency", "SI").number,
+            printed(history.engine_peak.reaction, "force", "SI").number,
+            printed(cargo.reaction, "force", "SI").number if cargo else "none",
+            printed(outcome.governing_peak.reaction, "force", "SI").number,
+        ]
+        assert results[1:5] == expected
+        for number in expected:
+            assert number in of_the_report
+            assert number in sheet
+        if outcome.utilisations:
+            for shown in results[6:8]:
+                assert shown in of_the_report
+        else:
+            assert results[6:8] == ["—", "—"]
+
+
+ROLES = ("engine", "cargo")
+
+
+def test_the_summary_leads_to_the_reports(made):
+    _, result, output, _ = made
+    page = (output / "summary.html").read_text("utf-8")
+    targets = {output / unquote(link) for link in re.findall(r'<a href="([^"#]+)"', page)}
+    assert targets == {report.html for report in result.reports}
+    assert "<script" not in page
+    assert "<b>" not in page
+
+
+def test_the_csv_reads_back_with_every_digit(made):
+    _, result, output, _ = made
+    text = (output / "summary.csv").read_bytes().decode("utf-8")
+    rows = list(csv.DictReader(io.StringIO(text, newline="")))
+    names = ["P 1 & <b>", "P3", "P4", "P5", "A"]
+    assert [row["case"] for row in rows] == names
+    assert [row["status"] for row in rows] == [
+        "calculated",
+        *["not calculated"] * 3,
+        "calculated",
+    ]
+    by_name = {row["case"]: row for row in rows}
+    for report in result.reports:
+        row, outcome = by_name[report.html.stem], calculate(report.case)
+        cargo = outcome.history.cargo_peak
+        values = {
+            "truck mass [kg]": report.case.truck.mass,
+            "speed [km/h]": report.case.inputs.speed * 3.6,
+            "impact height [m]": outcome.struck.impact_height,
+            "pier frequency [Hz]": outcome.pier.frequency,
+            "engine peak [kN]": outcome.history.engine_peak.reaction / 1e3,
+            "cargo peak [kN]": cargo.reaction / 1e3 if cargo else None,
+            "governing reaction [kN]": outcome.governing_peak.reaction / 1e3,
+            "utilisation in shear": outcome.utilisations.get("shear"),
+            "utilisation in moment": outcome.utilisations.get("moment"),
+        }
+        for column, value in values.items():
+            found = float(row[column]) if row[column] else None
+            assert found == (None if value is None else pytest.approx(value, rel=1e-15))
+        governing = outcome.governing_peak == cargo
+        assert row["governs"] == ("cargo" if governing else "engine")
+    assert by_name["A"]["project"] == "'=1+1"
+    assert by_name["A"]["element"] == "'@x;'-y"
+    assert by_name["P4"]["remarks"] == "P4.yml: is not UTF-8 text"
+    assert by_name["P4"]["speed [km/h]"] == ""
+    assert "exceeds the resistance to shear" in by_name["P 1 & <b>"]["remarks"]
+
+
+@given(st.text(alphabet="=+-@＝;, '\t\u00a0aä1\"", max_size=12))
+def test_no_text_is_a_formula_to_a_spreadsheet(text):
+    safe = no_formula(text)
+    for field in safe.split(";"):
+        assert field.strip()[:1] not in tuple("=+-@＝")
+    assert re.sub(r"(^|;)'(?=\s*[=+\-@＝])", r"\1", safe) == re.sub(
+        r"(^|;)'(?=\s*[=+\-@＝])", r"\1", text
+    )
+
+
+@pytest.mark.parametrize("systems", [["US", "US"], ["SI", "US"]])
+def test_units_of_the_summary(tmp_path, systems):
+    rows = []
+    for index, system in enumerate(systems):
+        case = write_case(tmp_path / f"{index}.yaml", units=system)
+        rows.append(Row(case.stem, calculate(read_case(case)), []))
+    page = "".join(block.to_html() for block in summary_blocks(rows))
+    system = "US" if systems == ["US", "US"] else "SI"
+    assert ("this table is in SI" in page) == (systems != ["US", "US"])
+    reader = csv.DictReader(io.StringIO(summary_csv(rows), newline=""))
+    kinds = {"force": 0, "mass": 0, "speed": 0, "length": 0}
+    for row in reader:
+        for column, text in row.items():
+            # Of a unit of the header and a number below it, the value in SI units again.
+            match = re.fullmatch(r"(truck mass|speed|impact height|.* peak) \[(.*)\]", column)
+            if not match:
+                continue
+            kind = {"truck mass": "mass", "speed": "speed", "impact height": "length"}.get(
+                match[1], "force"
+            )
+            unit = QUANTITIES[kind].us if system == "US" else QUANTITIES[kind].si
+            assert match[2] == unit[1]
+            assert f"[{match[2]}]" in page
+            outcome = rows[int(row["case"])].calculation
+            value = {
+                "truck mass": outcome.case.truck.mass,
+                "speed": outcome.case.inputs.speed,
+                "impact height": outcome.struck.impact_height,
+                "engine peak": outcome.history.engine_peak.reaction,
+                "cargo peak": outcome.history.cargo_peak.reaction,
+            }[match[1]]
+            assert parse(column, f"{text} {match[2]}", kind) == pytest.approx(value, rel=1e-14)
+            kinds[kind] += 1
+    assert kinds == {"force": 4, "mass": 2, "speed": 2, "length": 2}
+
+
+def test_a_project_of_their_own_is_a_column(tmp_path):
+    rows = []
+    for name, project in (("a", "One"), ("b", "Two"), ("c", "Two")):
+        case = write_case(tmp_path / f"{name}.yaml", project=project)
+        rows.append(Row(name, calculate(read_case(case)), []))
+
+    def heads(rows):
+        page = "".join(block.to_html() for block in summary_blocks(rows))
+        return re.findall(r'<th scope="col"[^>]*>(.*?)</th>', page)
+
+    assert "Project" in heads(rows)
+    assert "Project" not in heads(rows[1:])
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "code"),
+    [
+        ([None, None], 0),
+        ([None, InputError("b.yaml: bad")], 2),
+        ([InputError("a.yaml: bad"), InputError("b.yaml: bad")], 2),
+        ([InputError("a.yaml: bad"), None, ReportError("c.yaml: failed")], 1),
+        ([None, KeyError("a\nb")], 1),
+    ],
+)
+def test_exit_codes(tmp_path, monkeypatch, capsys, outcomes, code):
+    names = "abc"[: len(outcomes)]
+    cases = [write_case(tmp_path / f"{name}.yaml") for name in names]
+
+    def write(case, output, on_stage):
+        if error := outcomes[names.index(case.stem)]:
+            raise error
+        files = (output / f"{case.stem}.{ending}" for ending in ("ipynb", "html", "pdf"))
+        return Report(*files, [], read_case(case))
+
+    monkeypatch.setattr(batch_module, "write_report", write)
+    output = tmp_path / "out"
+    assert cli.main(["report", *map(str, cases), "--output", str(output)]) == code
+    lines = capsys.readouterr()
+    failures = [error for error in outcomes if error]
+    good = len(outcomes) - len(failures)
+    assert len(lines.out.splitlines()) == (3 * good + 3 if good else 0)
+    expected = [
+        "b.yaml: KeyError: 'a\\nb'" if isinstance(error, KeyError) else str(error)
+        for error in failures
+    ]
+    if failures:
+        expected.append(f"{len(failures)} of {len(outcomes)} cases have no report")
+    assert lines.err.splitlines() == [f"pierimpact: {line}" for line in expected]
+    assert output.exists() == (good > 0)
+
+
+def test_one_case_has_no_summary(tmp_path, monkeypatch):
+    case = write_case(tmp_path / "a.yaml")
+    report = Report(Path("a.ipynb"), Path("a.html"), Path("a.pdf"), [], read_case(case))
+    monkeypatch.setattr(batch_module, "write_report", lambda case, output, on_stage: report)
+    result = write_reports([case], tmp_path / "out", progress=False)
+    assert result == ([report], [], None)
+
+
+def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
+    cases = [write_case(tmp_path / f"{name}.yaml") for name in "ab"]
+
+    def write(case, output, on_stage):
+        return Report(Path("x.ipynb"), Path("x.html"), Path("x.pdf"), [], read_case(case))
+
+    def fail(rows):
+        raise ValueError("no CSV")
+
+    monkeypatch.setattr(batch_module, "write_report", write)
+    monkeypatch.setattr("pierimpact.sheet.summary_table.summary_csv", fail)
+    output = tmp_path / "out"
+    assert cli.main(["report", *map(str, cases), "--output", str(output)]) == 1
+    assert capsys.readouterr().err == "pierimpact: the summary: ValueError: no CSV\n"
+    assert list(output.iterdir()) == []
+
+
+def test_an_output_that_cannot_be_is_told_once(tmp_path):
+    cases = [write_case(tmp_path / f"{name}.yaml") for name in "abc"]
+    output = tmp_path / "file"
+    output.touch()
+    with pytest.raises(OutputError, match=rf"output {output} cannot be written to"):
+        write_reports(cases, output, progress=False)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs the signals of POSIX")
+def test_ctrl_c_leaves_whole_reports_only(tmp_path):
+    for name in "abcdefgh":
+        write_case(tmp_path / f"{name}.yaml")
+    output = tmp_path / "out"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "pierimpact", "report", tmp_path, "--output", output],
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        encoding="utf-8",
+        start_new_session=True,
+    )
+    while not list(output.glob("*.ipynb")) and process.poll() is None:
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    left = {path.name for path in output.iterdir()}
+    stems = {name.partition(".")[0] for name in left}
+    assert left == {f"{stem}.{ending}" for stem in stems for ending in ("ipynb", "html", "pdf")}
+    assert 1 <= len(stems) < 8
+    assert errors.splitlines() == [f"pierimpact: interrupted, {len(stems)} of 8 reports written"]
