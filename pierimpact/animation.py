@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from pierimpact.chart import BLUE, GREY, INK, PALE, VERMILION, canvas, plain, text
 from pierimpact.crush import CrushSpring
-from pierimpact.scenario import Strike
+from pierimpact.scenario import Strike, between
 from pierimpact.units import printed
 
 Array = NDArray[np.float64]
@@ -62,8 +62,8 @@ class Animation:
     @cached_property
     def _frames(self) -> Array:
         history, truck = self.strike.history, self.strike.truck
+        pier = between(history.time, history.pier_displacement, history.pier_velocity, self.times)
         series = [
-            history.pier_displacement,
             history.engine_crush,
             history.body_crush,
             _free_crush(truck.engine_spring, history.engine_crush),
@@ -73,7 +73,8 @@ class Animation:
             history.engine_velocity,
             history.body_velocity,
         ]
-        return np.array([self.times, *(np.interp(self.times, history.time, s) for s in series)]).T
+        others = (np.interp(self.times, history.time, samples) for samples in series)
+        return np.array([self.times, pier, *others]).T
 
     @cached_property
     def exaggeration(self) -> float:

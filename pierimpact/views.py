@@ -92,9 +92,8 @@ class TimePanels:
 
     def cursor(self, at: float) -> str:
         """Draw the instant `at` [s] for laying over the panels."""
-        history = self.strike.history
         x = float(self.forces.x(1e3 * at))
-        y = float(self.forces.y(1e-6 * np.interp(at, history.time, history.reaction)))
+        y = float(self.forces.y(1e-6 * self.strike.reaction(at)))
         _, top, _, bottom = self.forces.frame
         right, down = self.shift
         content = (
@@ -123,7 +122,8 @@ class TimePanels:
             panel.band(1e3 * start, 1e3 * end, BODIES.get(name, GREY), name)
         panel.line(self.time, engine, VERMILION, "engine spring", width=1.2)
         panel.line(self.time, body, BLUE, "body spring", width=1.2)
-        panel.line(self.time, reaction, INK, "reaction R", width=2.2)
+        fine = np.linspace(0.0, history.time[-1], 801)
+        panel.line(1e3 * fine, 1e-6 * self.strike.reaction(fine), INK, "reaction R", width=2.2)
         for name, peak in (("engine", history.engine_peak), ("cargo", history.cargo_peak)):
             if peak is not None:
                 panel.mark(1e3 * peak.time, 1e-6 * peak.reaction, BODIES[name],

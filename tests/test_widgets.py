@@ -11,7 +11,7 @@ from pierimpact.casefile import case_from, case_values
 from pierimpact.catalogue import read_truck_file
 from pierimpact.chart import Panel, decades, ticks
 from pierimpact.explorer import PAUSE
-from pierimpact.scenario import REFERENCE, Scenario
+from pierimpact.scenario import REFERENCE, Scenario, between
 from pierimpact.units import printed
 from pierimpact.variables import CRUSH, VARIABLES, case_text, truck_text
 from pierimpact.views import outcome
@@ -172,12 +172,23 @@ def test_dragging_redraws_once_and_with_the_newest_value():
 def test_the_picture_shows_the_instant_asked_for():
     explorer = widgets.collision()
     history = explorer.strike.history
-    for moment in (0.0, history.engine_peak.time, history.cargo_contact_time):
+    for moment, reaction in (
+        (0.0, 0.0),
+        (history.engine_peak.time, history.engine_peak.reaction),
+        (history.cargo_peak.time, history.cargo_peak.reaction),
+    ):
         explorer.show(moment)
         assert explorer.time == moment
-        assert f"{1e3 * moment:.1f} ms" in explorer.views["picture"].value
-        reaction = np.interp(moment, history.time, history.reaction)
-        assert str(printed(float(reaction), "force", "SI")) in explorer.views["picture"].value
+        picture = explorer.views["picture"].value
+        assert f"{1e3 * moment:.1f} ms" in picture
+        assert f"R = {printed(reaction, 'force', 'SI')}" in picture
+
+
+def test_a_cubic_is_found_between_its_samples():
+    time = np.array([0.0, 0.3, 1.0, 1.1, 2.0])
+    cubic = np.polynomial.Polynomial([1.0, -2.0, 0.5, 3.0])
+    at = np.linspace(0.0, 2.0, 50)
+    assert between(time, cubic(time), cubic.deriv()(time), at) == pytest.approx(cubic(at))
 
 
 def test_the_case_file_gives_the_same_collision(tmp_path):
