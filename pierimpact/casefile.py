@@ -13,13 +13,11 @@ import yaml
 from pierimpact.catalogue import TruckFile, read_truck_file
 from pierimpact.checks import InputError
 from pierimpact.column import PierColumn
+from pierimpact.design import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.inputs import Inputs, read_inputs
 from pierimpact.sections import CircularSection, RectangularSection, Section
 from pierimpact.truck import Truck
 from pierimpact.units import brief
-
-#: Nominal impact heights of the source paper: without, and with, a cargo peak that counts [m].
-LOW_IMPACT_HEIGHT, HIGH_IMPACT_HEIGHT = 1.05, 1.35
 
 #: Parameters of the report notebook that are no keys of a case file.
 NOTEBOOK_PARAMETERS = ("case_file", "case_sha256")

@@ -15,7 +15,17 @@ CHUNK = 2048  # collisions side by side: their arrays stay in the processor's ca
 
 
 def collision(truck: Truck, pier: EquivalentPier, speed: float) -> Collision:
-    """Return one collision, in floats."""
+    """Return one collision, in floats.
+
+    Raises
+    ------
+    InputError
+        When `truck` or `pier` is not what it should be.
+    """
+    if not isinstance(truck, Truck):
+        raise InputError(f"truck must be a Truck, got {type(truck).__name__}")
+    if not isinstance(pier, EquivalentPier):
+        raise InputError(f"pier must be an EquivalentPier, got {type(pier).__name__}")
     return Collision(
         engine=_spring(truck.engine_mass, truck.engine_spring),
         body=_spring(truck.body_mass, truck.body_spring),
@@ -53,15 +63,20 @@ def collisions(
     InputError
         When a value is out of range or the shapes do not broadcast.
     """
-    one = isinstance(truck, Truck)
-    trucks = [truck] if isinstance(truck, Truck) else list(truck)
+    many = isinstance(truck, Sequence)
+    trucks = list(truck) if isinstance(truck, Sequence) else [truck]
+    for item in trucks:
+        if not isinstance(item, Truck):
+            raise InputError(
+                f"truck must be a Truck or a sequence of them, got {type(item).__name__}"
+            )
     inputs = {
         "pier_mass": positive_array("pier_mass", pier_mass),
         "pier_stiffness": positive_array("pier_stiffness", pier_stiffness),
         "damping_ratio": ratio_array("damping_ratio", damping_ratio),
         "speed": positive_array("speed", speed),
     }
-    which = np.zeros((), dtype=int) if one else np.arange(len(trucks))
+    which = np.arange(len(trucks)) if many else np.zeros((), dtype=int)
     try:
         which, *arrays = np.broadcast_arrays(which, *inputs.values())
     except ValueError:

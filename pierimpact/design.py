@@ -71,7 +71,14 @@ class DesignReaction:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the formulas were not checked for, a sentence each; empty within the domain."""
-        return domain.warnings(self.case)
+        found = domain.warnings(self.case)
+        gone = self.values.get("ringing_time", self.values["engine_time"])
+        if self.cargo is not None and self.values["cargo_time"] <= gone:
+            found += (
+                "the cargo meets the pier before the engine lets go: the design formulas take "
+                "one after the other",
+            )
+        return found
 
     @property
     def given(self) -> tuple[DesignStep, ...]:

@@ -135,7 +135,7 @@ class SheetHTMLExporter(_SheetExporter):
         sheet = super()._sheet(nb)
         # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
         page = re.sub(r"<annotation .*?</annotation>", "", "\n".join(sheet["pieces"]), flags=re.S)
-        return sheet | {"pieces": _numbered(page)}
+        return sheet | {"pieces": _with_contents(_numbered(page))}
 
     def _formulas(self, text: str) -> list[str]:
         marks = {"": "$", " display": "$$"}
@@ -182,6 +182,21 @@ def _numbered(page: str) -> str:
         ),
         page,
     )
+
+
+def _with_contents(page: str) -> str:
+    """Return the page with its parts listed where the list of contents belongs."""
+    entries = "".join(
+        f'<li><a href="#{anchor}">{html.escape(number)} {heading}</a></li>'
+        for anchor, number, heading in re.findall(
+            r'<h2 [^>]*id="([^"]+)">\s*<span\s+class="header-section-number">([^<]*)</span>'
+            r"\s*(.*?)</h2>",
+            page,
+            re.DOTALL,
+        )
+    )
+    listed = f"<h2>Contents</h2><ol>{entries}</ol></nav>"
+    return re.sub(r'(<nav class="contents"[^>]*>)</nav>', lambda nav: nav[1] + listed, page)
 
 
 class SheetPDFExporter(_SheetExporter):

@@ -1,16 +1,23 @@
 """Figures, drawn as SVG with text as outlines: they look the same whatever fonts there are."""
 
 import io
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
+import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from pierimpact.history import CollisionHistory
+from pierimpact.member_forces import MemberForces
+from pierimpact.sensitivity import Sensitivity, Variation
 from pierimpact.units import printed, unit_of, unit_size
 
 # Colours of Okabe and Ito, told apart by colour-blind readers too.
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#8a8a8a"
+
+MODEL, DESIGN = "full model", "design procedure"
 
 _STYLE: Any = {
     "font.family": "STIXGeneral",
@@ -37,8 +44,7 @@ def draw_history(history: CollisionHistory, system: str) -> str:
     system : {"SI", "US"}
         Units to print in.
     """
-    with rc_context(_STYLE):
-        figure = Figure(figsize=(6.5, 2.9), layout="constrained")
+    with _figure(6.5, 2.8, left=0.105, right=0.99, bottom=0.16, top=0.97) as figure:
         axes = figure.add_subplot()
         time = history.time / unit_size("time", system)
         force = history.contact_force / unit_size("force", system)
@@ -69,6 +75,181 @@ def _mark_peaks(axes: Any, history: CollisionHistory, system: str) -> None:
             textcoords="offset points",
             horizontalalignment="right" if late else "left",
         )
+
+
+def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
+    """Draw engine and cargo reaction against pier frequency, this pier marked; return SVG.
+
+    Parameters
+    ----------
+    spectrum : Variation
+        Reactions over frequency [Hz].
+    frequency : float
+        Frequency of this pier, among those of the spectrum [Hz].
+    system : {"SI", "US"}
+        Units to print in.
+    """
+    curves = {
+        "Engine": (spectrum.engine, spectrum.design_engine),
+        "Cargo": (spectrum.cargo, spectrum.design_cargo),
+    }
+    here = int(np.argmin(np.abs(spectrum.values - frequency)))
+    with _figure(6.5, 2.7, left=0.105, right=0.985, bottom=0.17, top=0.9, wspace=0.1) as figure:
+        panels = figure.subplots(1, 2, sharey=True)
+        for axes, (name, (model, design)) in zip(panels, curves.items(), strict=True):
+            axes.axvline(frequency, color=GREY, linewidth=0.8)
+            _plot_both(axes, spectrum.values, model, design, system)
+            _mark_both(axes, frequency, model[here], design[here], system)
+            _logarithmic(axes)
+            axes.set_xlim(float(spectrum.values[0]), float(spectrum.values[-1]))
+            axes.set_xlabel("Pier frequency [Hz]")
+            axes.set_title(name, loc="left", fontsize=9.0)
+            if np.all(np.isnan(model)):
+                axes.text(0.5, 0.5, "no contact", transform=axes.transAxes, ha="center")
+        panels[0].set_ylim(bottom=0.0)
+        panels[0].set_ylabel(f"Reaction [{unit_of('force', system)}]")
+        _name_both(panels[0])
+        return to_svg(figure)
+
+
+def draw_member_forces(forces: MemberForces, system: str) -> str:
+    """Draw the column with its force, and the diagrams of shear and moment; return SVG.
+
+    Parameters
+    ----------
+    forces : MemberForces
+        The member forces.
+    system : {"SI", "US"}
+        Units to print in.
+    """
+    z = forces.z / unit_size("length", system)
+    impact = z[1]
+    with _figure(6.5, 3.1, left=0.105, right=0.985, bottom=0.15, top=0.9, wspace=0.12) as figure:
+        column, *diagrams = figure.subplots(1, 3, sharey=True, width_ratios=[0.7, 1.0, 1.0])
+        column.plot([0.0, 0.0], [z[0], z[-1]], color="black", linewidth=3.0)
+        column.annotate(
+            "",
+            (-0.03, impact),
+            xytext=(-0.8, impact),
+            arrowprops={"arrowstyle": "-|>", "color": VERMILION, "linewidth": 1.4},
+        )
+        force = printed(forces.reaction, "force", system)
+        column.text(-0.85, impact, f"{force}\n", va="center", fontsize=8.5)
+        column.set_xlim(-1.0, 0.5)
+        column.set_xticks([])
+        column.spines["bottom"].set_visible(False)
+        column.set_ylabel(f"Height above the base [{unit_of('length', system)}]")
+        column.set_ylim(0.0, z[-1])
+        for axes, values, quantity, name in (
+            (diagrams[0], forces.shear, "force", "Shear"),
+            (diagrams[1], forces.moment, "moment", "Moment"),
+        ):
+            shown = values / unit_size(quantity, system)
+            axes.axvline(0.0, color="black", linewidth=0.8)
+            axes.fill_betweenx(z, 0.0, shown, color=BLUE, alpha=0.15, linewidth=0.0)
+            axes.plot(shown, z, color=BLUE, linewidth=1.3)
+            axes.margins(x=0.32)
+            axes.set_title(f"{name} [{unit_of(quantity, system)}]", loc="left", fontsize=9.0)
+            axes.locator_params(axis="x", nbins=4)
+            for height, value, x in _labelled_corners(z, values, shown, name):
+                axes.annotate(
+                    printed(value, quantity, system).number,
+                    (x, height),
+                    xytext=(4 if x >= 0.0 else -4, 0),
+                    textcoords="offset points",
+                    ha="left" if x >= 0.0 else "right",
+                    va="center" if 0.0 < height < z[-1] else "bottom" if height == 0.0 else "top",
+                    fontsize=8.5,
+                )
+        return to_svg(figure)
+
+
+def _labelled_corners(z: Any, values: Any, shown: Any, name: str) -> Iterator[tuple[Any, Any, Any]]:
+    """Yield height, value and place of the values to print: each stretch or corner once."""
+    if name == "Shear":
+        for first in (0, 2):
+            yield 0.5 * (z[first] + z[first + 1]), values[first], shown[first]
+    else:
+        largest = np.max(np.abs(values))
+        for corner in (0, 1, 3):
+            if abs(values[corner]) > 1e-9 * largest:
+                yield z[corner], values[corner], shown[corner]
+
+
+def draw_sensitivity(
+    variations: Sensitivity, here: dict[str, float], force: tuple[float, float], system: str
+) -> str:
+    """Draw the governing reaction against four quantities, this case marked; return SVG.
+
+    Parameters
+    ----------
+    variations : Sensitivity
+        The reactions.
+    here : dict of str to float
+        The case's own speed [m/s], mass [kg], impact_height [m] and frequency [Hz].
+    force : tuple of float
+        Its reaction by the full model and by the design procedure [N].
+    system : {"SI", "US"}
+        Units to print in.
+    """
+    panels = (
+        ("speed", "speed", "Speed"),
+        ("mass", "mass", "Truck mass"),
+        ("impact_height", "length", "Impact height"),
+        ("frequency", "frequency", "Pier frequency"),
+    )
+    with _figure(
+        6.5, 4.6, left=0.105, right=0.985, bottom=0.1, top=0.97, hspace=0.35, wspace=0.1
+    ) as figure:
+        grid = figure.subplots(2, 2, sharey=True)
+        for axes, (name, quantity, words) in zip(grid.flat, panels, strict=True):
+            variation = getattr(variations, name)
+            size = unit_size(quantity, system)
+            _plot_both(axes, variation.values / size, variation.model, variation.design, system)
+            _mark_both(axes, here[name] / size, *force, system)
+            axes.set_xlabel(f"{words} [{unit_of(quantity, system)}]")
+            axes.set_xlim(float(variation.values[0]) / size, float(variation.values[-1]) / size)
+            if name == "frequency":
+                _logarithmic(axes)
+            axes.grid(axis="y", color="#e2e6e9", linewidth=0.6)
+        grid[0, 0].set_ylim(bottom=0.0)
+        for axes in grid[:, 0]:
+            axes.set_ylabel(f"Reaction [{unit_of('force', system)}]")
+        _name_both(grid[0, 0])
+        return to_svg(figure)
+
+
+def _plot_both(axes: Any, x: Any, model: Any, design: Any, system: str) -> None:
+    size = unit_size("force", system)
+    axes.plot(x, design / size, color=VERMILION, linewidth=1.0, dashes=(5, 2), label=DESIGN)
+    axes.plot(x, model / size, color=BLUE, linewidth=1.4, label=MODEL)
+
+
+def _mark_both(axes: Any, x: float, model: float, design: float, system: str) -> None:
+    size = unit_size("force", system)
+    axes.plot([x], [design / size], "s", color=VERMILION, markersize=5.0, fillstyle="none")
+    axes.plot([x], [model / size], "o", color=BLUE, markersize=4.0, zorder=5)
+
+
+def _logarithmic(axes: Any) -> None:
+    axes.set_xscale("log")
+    frequencies = (2, 5, 10, 20, 50, 100, 200)
+    axes.set_xticks(frequencies, map(str, frequencies))
+    axes.minorticks_off()
+
+
+def _name_both(axes: Any) -> None:
+    handles, names = axes.get_legend_handles_labels()
+    axes.legend(handles[::-1], names[::-1], frameon=False, loc="upper left", fontsize=8.5)
+
+
+@contextmanager
+def _figure(width: float, height: float, **margins: float) -> Iterator[Figure]:
+    """Give a figure of a size in inches, in the style of the sheet."""
+    with rc_context(_STYLE):
+        figure = Figure(figsize=(width, height))
+        figure.subplots_adjust(**margins)
+        yield figure
 
 
 def to_svg(figure: Figure) -> str:

@@ -13,11 +13,11 @@ Real: TypeAlias = Any  # a float, or an array
 
 # The coefficients of the closed spectrum, fitted by `pierimpact.study`, and of the two rules for
 # the cargo, chosen on its cases.
-HUMP = 1.44
-HUMP_END = 3.08
+HUMP = 1.45
+HUMP_END = 3.1
 HUMP_DECLINE = 3.1
-MASS_EFFECT = 1.42
-DAMPING_EFFECT = 5.2
+MASS_EFFECT = 1.4
+DAMPING_EFFECT = 5.3
 RINGING_SHARE = 0.6
 RINGING_BETA = 2.0
 
@@ -41,7 +41,7 @@ def hump(
 ) -> Real:
     """Return what the motion of the pier adds to the static part of the unified spectrum [-].
 
-    h = 1.44 e^(−5.2 ζ) / {[1 + (β/3.08)^3.1] (1 + 1.42 μ/β)}.
+    h = 1.45 e^(−5.3 ζ) / {[1 + (β/3.1)^3.1] (1 + 1.4 μ/β)}.
     """
     decays = (1.0 + (beta / end) ** decline) * (1.0 + mass_effect * mu / beta)
     return height * np.exp(-damping_effect * zeta) / decays

@@ -220,6 +220,19 @@ class CollisionHistory:
         return force + self.friction_force if self.case.on_pier else force
 
     @cached_property
+    def impulse(self) -> Array:
+        """Impulse of the truck on the pier since first touch, ∫ F dt, shape (n,) [N s].
+
+        From the pier's motion: m_p x_p' + c_p x_p + k_p ∫ x_p dt.
+        """
+        pier = self.pier
+        return (
+            pier.mass * self.pier_velocity
+            + pier.damping * self.pier_displacement
+            + pier.stiffness * self._accumulate(self._series(PIER, order=-1))
+        )
+
+    @cached_property
     def energy(self) -> EnergyShares:
         """Where the truck's energy is at each time."""
         case, truck = self.case, self.truck
@@ -254,22 +267,16 @@ class CollisionHistory:
 
         Momentum of truck and pier + ∫ (k_p x_p + c_p x_p' + road friction) dt = (m1 + m2) V.
         """
-        truck, pier = self.truck, self.pier
+        truck = self.truck
         given = truck.mass * self.speed
-        momentum = (
-            truck.engine_mass * self.engine_velocity
-            + truck.body_mass * self.body_velocity
-            + pier.mass * self.pier_velocity
-        )
-        impulse = pier.damping * self.pier_displacement + self._accumulate(
-            pier.stiffness * self._series(PIER, order=-1)
-        )
+        momentum = truck.engine_mass * self.engine_velocity + truck.body_mass * self.body_velocity
+        impulse = self.impulse
         if not self.case.on_pier:
             # A body that sticks to the road is held by minus the force of its spring.
             stuck = self._column(lambda state, law: state.stuck)
             intercept = self._column(lambda state, law: state.body.intercept)
             slope = self._column(lambda state, law: state.body.slope)
-            impulse += self._accumulate(
+            impulse = impulse + self._accumulate(
                 (self._sliding_friction - stuck * intercept) * self._lengths * FRACTIONS
                 - stuck * slope * self._series(BODY, order=-1)
             )

@@ -9,20 +9,25 @@ import json
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact import domain, formulas
-from pierimpact.cases import CHUNK
-from pierimpact.motion import OUTCOMES, Collision, Spring, follow_all
+from pierimpact.cases import CHUNK, collision
+from pierimpact.motion import OUTCOMES, STEEP, Collision, Law, Spring, State, follow, follow_all
+from pierimpact.pier import EquivalentPier
 from pierimpact.procedure import LEVELS, design_values
 from pierimpact.reduction import exact_amplification
+from pierimpact.truck import Truck
 
 Array = NDArray[np.float64]
+Summary = dict[str, float]
 
 SIZE, SEED = 6000, 20170101
+#: So many of the cases are also followed one by one, for the speeds at contact.
+FOLLOWED = 1000
 OUTCOME_FILE = Path(__file__).with_name("study.json")
 #: Arguments of the closed spectrum that are fitted, and the values in use.
 COEFFICIENTS = {
@@ -38,8 +43,16 @@ BANDS = (5.0, 7.0, 10.0, 15.0, 20.0, 40.0, 80.0, 150.0)
 PRUDENCE = 2.0
 
 
-def full_model(case: Collision) -> dict[str, Array]:
-    """Return engine, cargo and governing peak reactions by the full model [N]."""
+class Reactions(NamedTuple):
+    """Engine, cargo and governing reactions, each of shape (n,); cargo is nan without it [N]."""
+
+    engine: Array
+    cargo: Array
+    governing: Array
+
+
+def full_model(case: Collision) -> Reactions:
+    """Return the peak reactions by the full model."""
     parts = [
         follow_all(take(case, slice(first, first + CHUNK)))
         for first in range(0, len(case.speed), CHUNK)
@@ -47,18 +60,18 @@ def full_model(case: Collision) -> dict[str, Array]:
     peaks = dict(zip(OUTCOMES, np.concatenate(parts, axis=1), strict=True))
     engine = case.pier_stiffness * peaks["engine_peak"]
     cargo = case.pier_stiffness * peaks["cargo_peak"]
-    return {"engine": engine, "cargo": cargo, "governing": np.fmax(engine, cargo)}
+    return Reactions(engine, cargo, np.fmax(engine, cargo))
 
 
-def predictions(case: Collision, level: str) -> dict[str, Array]:
-    """Return the same reactions by the design procedure [N]."""
+def predictions(case: Collision, level: str) -> Reactions:
+    """Return the same reactions by the design procedure."""
     values = design_values(case, level)
     engine, cargo = values["engine"], values["cargo"]
-    return {"engine": engine, "cargo": cargo, "governing": np.fmax(engine, cargo)}
+    return Reactions(engine, cargo, np.fmax(engine, cargo))
 
 
 def take(case: Collision, part: Any) -> Collision:
-    """Return a part of many collisions."""
+    """Return a part of many collisions, or one of them."""
     return Collision(
         *(
             Spring(*(x[part] for x in item)) if isinstance(item, Spring) else item[part]
@@ -67,9 +80,23 @@ def take(case: Collision, part: Any) -> Collision:
     )
 
 
-def summary(ratios: Array) -> dict[str, float]:
+def with_truck(case: Collision, truck: Truck) -> Collision:
+    """Return the collisions with another truck, the same in each."""
+    own = collision(truck, EquivalentPier(mass=1.0, stiffness=1.0), 1.0)
+    same = np.ones_like(case.speed)
+    return case._replace(
+        engine=Spring(*(same * x for x in own.engine)),
+        body=Spring(*(same * x for x in own.body)),
+        friction_force=same * own.friction_force,
+        on_pier=np.full(same.shape, own.on_pier),
+    )
+
+
+def summary(ratios: Array) -> Summary:
     """Return what is reported of predicted over CMSD reactions; pairs with a nan are left out."""
     ratios = ratios[np.isfinite(ratios)]
+    if not len(ratios):
+        return {"cases": 0}
     return {
         "cases": len(ratios),
         "mean": float(ratios.mean()),
@@ -81,19 +108,69 @@ def summary(ratios: Array) -> dict[str, float]:
     }
 
 
-def assessment(case: Collision) -> dict[str, Any]:
-    """Return the summaries by level, reaction and frequency band."""
-    exact = full_model(case)
+def assessment(
+    case: Collision, exact: Reactions, predicted: Reactions
+) -> dict[str, dict[str, Summary]]:
+    """Return summaries of predicted over CMSD by reaction and frequency band."""
     frequency = domain.values(case)["pier frequency"]
-    found: dict[str, Any] = {}
+    found: dict[str, dict[str, Summary]] = {}
+    for which in Reactions._fields:
+        ratios = getattr(predicted, which) / getattr(exact, which)
+        found[which] = {"all": summary(ratios)} | {
+            f"{low:g}–{high:g} Hz": summary(ratios[(frequency >= low) & (frequency < high)])
+            for low, high in pairwise(BANDS)
+        }
+    return found
+
+
+def contact_speeds(case: Collision) -> tuple[Array, Array]:
+    """Return the speeds of engine and cargo as they meet the pier by the full model.
+
+    Over the road, each of shape (n,); nan where the body does not meet the pier [m/s].
+    """
+    speeds = np.full((2, len(case.speed)), np.nan)
+    for i in range(len(case.speed)):
+        found = speeds[:, i]
+
+        def record(state: State, law: Law, h: float, found: Array = found) -> None:
+            at = state.at
+            if np.isnan(found[0]) and state.engine.regime == STEEP:
+                found[0] = at.u1 + at.vp
+            if np.isnan(found[1]) and state.body.regime == STEEP:
+                found[1] = at.u2 + at.vp
+
+        one = take(case, i)
+        follow(
+            Collision(
+                *(
+                    Spring(*map(float, item)) if isinstance(item, Spring) else item.item()
+                    for item in one
+                )
+            ),
+            record=record,
+        )
+    return speeds[0], speeds[1]
+
+
+def speed_errors(case: Collision) -> dict[str, dict[str, Summary]]:
+    """Return how far approach speeds are off by level and body, over the speed of the truck.
+
+    Where the body meets the pier by the full model.
+    """
+    exact = contact_speeds(case)
+    found: dict[str, dict[str, Summary]] = {}
     for level in LEVELS:
-        predicted = predictions(case, level)
+        values = design_values(case, level)
         found[level] = {}
-        for which in exact:
-            ratios = predicted[which] / exact[which]
-            found[level][which] = {"all": summary(ratios)} | {
-                f"{low:g}–{high:g} Hz": summary(ratios[(frequency >= low) & (frequency < high)])
-                for low, high in pairwise(BANDS)
+        for body, speed in zip(("engine", "cargo"), exact, strict=True):
+            error = (values[f"{body}_speed"] - speed) / case.speed
+            error = error[np.isfinite(error)]
+            found[level][body] = {
+                "cases": len(error),
+                "mean": float(error.mean()),
+                "standard deviation": float(error.std()),
+                "smallest": float(error.min()),
+                "largest": float(error.max()),
             }
     return found
 
@@ -119,9 +196,12 @@ def fit(arguments: tuple[Array, Array, Array, Array], exact: Array) -> dict[str,
     """Return the coefficients of the closed spectrum that fit the exact amplification best."""
     from scipy.optimize import least_squares
 
+    beta, mu, e, zeta = arguments
+
     def residual(coefficients: Array) -> Array:
         named = dict(zip(COEFFICIENTS, coefficients, strict=True))
-        error = np.log(formulas.amplification(*arguments, **named) / exact)
+        closed = formulas.joined(beta, mu, e, formulas.hump(beta, mu, zeta, **named))
+        error = np.log(closed / exact)
         return np.asarray(np.where(error < 0.0, PRUDENCE * error, error))
 
     found = least_squares(residual, list(COEFFICIENTS.values())).x
@@ -134,17 +214,26 @@ def study(size: int = SIZE, seed: int = SEED) -> dict[str, Any]:
     arguments = spectrum_arguments(case)
     exact = exact_amplification(*arguments)
     closed = formulas.amplification(*arguments)
+    reactions = full_model(case)
     return {
         "seed": seed,
         "size": size,
-        "domain": {name: list(bounds) for name, bounds in domain.DOMAIN.items()},
+        "domain": {
+            name: f"{low:g} to {high:g} {unit}"
+            for name, (low, high, unit, _) in domain.DOMAIN.items()
+        },
         "fitted": fit(arguments, exact),
         "used": COEFFICIENTS,
         "closed over exact amplification": {
             "engine": summary(closed[:size] / exact[:size]),
             "cargo": summary(closed[size:] / exact[size:]),
         },
-        "predicted over CMSD": assessment(case),
+        "predicted over CMSD": {
+            level: assessment(case, reactions, predictions(case, level)) for level in LEVELS
+        },
+        "error of the approach speed over the truck's": speed_errors(
+            take(case, slice(0, FOLLOWED))
+        ),
     }
 
 

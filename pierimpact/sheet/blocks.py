@@ -10,12 +10,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pierimpact.sheet.markup import Inline, to_html, to_typst, typst_string
+from pierimpact.sheet.markup import Inline, Tex, tex_length, to_html, to_typst, typst_string
 from pierimpact.units import Printed
 
 #: MIME type of what running headers, document properties and paper size need to know.
 SHEET_MIME = "application/vnd.pierimpact.sheet+json"
 TYPST_MIME = "text/x-typst"
+#: What a line of a formula begins with that goes on with the line before it.
+CONTINUED = r"\qquad"
 
 
 class Block(ABC):
@@ -137,6 +139,69 @@ class Paragraph(Block):
     def to_typst(self) -> str:
         """Return the block as Typst markup."""
         return to_typst(self.body)
+
+
+@dataclass(frozen=True)
+class Contents(Block):
+    """The list of the sheet's parts; the exporters fill it in."""
+
+    def to_html(self) -> str:
+        """Return the block as HTML."""
+        return '<nav class="contents" aria-label="Contents"></nav>'
+
+    def to_typst(self) -> str:
+        """Return the block as Typst markup."""
+        return "#contents"
+
+
+@dataclass(frozen=True)
+class Notes(Block):
+    """Remarks in small type, a list.
+
+    Parameters
+    ----------
+    notes : sequence of str or Tex or tuple
+        The remarks.
+    """
+
+    notes: Sequence[Inline]
+
+    def to_html(self) -> str:
+        """Return the block as HTML."""
+        notes = "".join(f"<li>{to_html(note)}</li>" for note in self.notes)
+        return f'<ul class="notes">{notes}</ul>'
+
+    def to_typst(self) -> str:
+        """Return the block as Typst markup."""
+        return "#notes((" + "".join(f"[{to_typst(note)}]," for note in self.notes) + "))"
+
+
+@dataclass(frozen=True)
+class Nomenclature(Block):
+    """Symbols and what they stand for.
+
+    Parameters
+    ----------
+    entries : sequence of (Tex, str or Tex or tuple)
+        Symbol and meaning.
+    """
+
+    entries: Sequence[tuple[Tex, Inline]]
+
+    def to_html(self) -> str:
+        """Return the block as HTML."""
+        entries = "".join(
+            f"<div><dt>{to_html(symbol)}</dt><dd>{to_html(meaning)}</dd></div>"
+            for symbol, meaning in self.entries
+        )
+        return f'<dl class="nomenclature">{entries}</dl>'
+
+    def to_typst(self) -> str:
+        """Return the block as Typst markup."""
+        entries = "".join(
+            f"([{to_typst(symbol)}], [{to_typst(meaning)}])," for symbol, meaning in self.entries
+        )
+        return f"#nomenclature(({entries}))"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -271,7 +336,7 @@ class Equation:
     ----------
     label : str
         Anchor that text can refer to, such as "eq-stiffness".
-    name : str
+    name : str or Tex or tuple
         What is calculated.
     symbol : str
         Left-hand side, in LaTeX.
@@ -282,15 +347,22 @@ class Equation:
     """
 
     label: str
-    name: str
+    name: Inline
     symbol: str
     lines: Sequence[str]
     source: str = ""
 
     @property
+    def long(self) -> bool:
+        """Whether it wants the width of the page."""
+        return max(map(tex_length, self.lines)) > 60
+
+    @property
     def tex(self) -> str:
-        """The step in LaTeX."""
-        lines = r" \\ ".join(f"&= {line}" for line in self.lines)
+        """The step in LaTeX; lines that are continued have no equals sign."""
+        lines = r" \\ ".join(
+            f"& {line}" if line.startswith(CONTINUED) else f"&= {line}" for line in self.lines
+        )
         return rf"\begin{{aligned}} {self.symbol} {lines} \end{{aligned}}"
 
 
@@ -311,8 +383,9 @@ class Steps(Block):
         rows = ""
         for step in self.equations:
             source = f"<small>{html.escape(step.source)}</small>" if step.source else ""
+            long = " long" if step.long else ""
             rows += (
-                f'<div class="step" id="{step.label}"><div>{html.escape(step.name)}{source}</div>'
+                f'<div class="step{long}" id="{step.label}"><div>{to_html(step.name)}{source}</div>'
                 f'<div class="math display">\\[{html.escape(step.tex)}\\]</div>'
                 f'<span class="number" data-count="Equation"></span></div>'
             )
@@ -321,7 +394,7 @@ class Steps(Block):
     def to_typst(self) -> str:
         """Return the block as Typst markup."""
         return "\n".join(
-            f"#step({typst_string(step.name)}, {typst_string(step.source)}, "
+            f"#step([{to_typst(step.name)}], {typst_string(step.source)}, "
             f"[#texblock({typst_string(step.tex)}) <{step.label}>])"
             for step in self.equations
         )

@@ -147,6 +147,16 @@ def truck_table(calculation: Calculation) -> Block:
     )
 
 
+def symbols_of_inputs(calculation: Calculation) -> Iterator[tuple[Tex, Inline]]:
+    """Yield symbol and meaning of what the case and the truck give."""
+    for key in _shown_keys(calculation):
+        if _INPUTS[key][1]:
+            yield Tex(_INPUTS[key][1]), name_of(key)
+    for name, symbol, _ in _TRUCK_PARAMETERS.values():
+        if symbol:
+            yield Tex(symbol), name[0].lower() + name[1:]
+
+
 def name_of(key: str) -> str:
     """Return the name of an input as it reads within a sentence."""
     name = _INPUTS[key][0]

@@ -6,6 +6,7 @@ Typst.
 """
 
 import html
+import re
 from dataclasses import dataclass
 from urllib.parse import quote
 
@@ -68,6 +69,22 @@ def typst_string(text: str) -> str:
     """Return `text` as a Typst string literal: nothing in it can act as markup."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
+
+
+def inline(text: str) -> Inline:
+    """Return text with mathematics between dollar signs."""
+    pieces = text.split("$")
+    run = [Tex(piece) if index % 2 else piece for index, piece in enumerate(pieces) if piece]
+    return tuple(run) if len(run) > 1 else text
+
+
+def tex_length(source: str) -> int:
+    """Return about how many characters wide a formula is."""
+    plain = re.sub(r"\\(text|mathrm|operatorname)\{([^}]*)\}", r"\2", source)
+    wider = re.compile(r"\\frac\{([^{}]*)\}\{([^{}]*)\}")
+    while wider.search(plain):  # of a fraction, its longer side
+        plain = wider.sub(lambda sides: max(sides[1], sides[2], key=len), plain)
+    return len(re.sub(r"\\[a-z]+|[\s{}^_\\]", "", plain.replace(r"\times", "·")))
 
 
 def in_tex(value: Printed) -> str:

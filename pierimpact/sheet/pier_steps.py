@@ -1,5 +1,7 @@
 """The pier's values step by step: symbol, formula, substitution and result of each."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import NDArray
@@ -7,7 +9,7 @@ from numpy.typing import NDArray
 from pierimpact.calculation import Calculation
 from pierimpact.sections import CircularSection
 from pierimpact.sheet.blocks import Column, Equation, Steps, Table
-from pierimpact.sheet.markup import Tex, in_tex, number_in_tex
+from pierimpact.sheet.markup import Inline, Tex, in_tex, number_in_tex
 from pierimpact.sheet.step_writer import StepWriter, Value
 from pierimpact.units import printed, unit_of
 
@@ -101,7 +103,12 @@ def section_steps(calculation: Calculation) -> Steps:
         ),
         step("Flexural rigidity", "EI", "<E> <x> <I>"),
         step("Shear modulus", "G", r"\frac{<E>}{2 \, (1 + <nu>)}"),
-        step("Shear rigidity", "GA", "<kappa> <x> <G> <x> <A>"),
+        step(
+            "Shear rigidity",
+            "GA",
+            "<kappa> <x> <G> <x> <A>",
+            source="κ = 0.9 of a circle" if circular else "κ = 5/6 of a rectangle",
+        ),
         step("Mass per length", "m", "<rho> <x> <A>"),
     ]
     if calculation.case.inputs.concrete_strength is not None:
@@ -319,3 +326,11 @@ def mass_steps(calculation: Calculation) -> Steps:
             step("Damping coefficient", "cp", r"2 <x> <zeta> \sqrt{<kp_mass> <x> <mp>}"),
         ]
     )
+
+
+def symbols_of_pier(calculation: Calculation) -> Iterator[tuple[Tex, Inline]]:
+    """Yield symbol and meaning of the values of the pier."""
+    for steps in (section_steps, unit_force_steps, stiffness_steps, mass_steps):
+        for equation in steps(calculation).equations:
+            name = str(equation.name)
+            yield Tex(equation.symbol), name[0].lower() + name[1:]

@@ -8,11 +8,11 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from pierimpact.sheet.blocks import Equation
-from pierimpact.sheet.markup import in_tex, number_in_tex
+from pierimpact.sheet.blocks import CONTINUED, Equation
+from pierimpact.sheet.markup import in_tex, inline, number_in_tex, tex_length
 from pierimpact.units import printed
 
-_LONG = 90  # LaTeX with values of more characters than this leaves no room for the result
+_LONG = 75  # characters on a line
 
 
 class Value(NamedTuple):
@@ -33,10 +33,12 @@ class StepWriter:
         Values by the names that formulas call them.
     system : {"SI", "US"}
         Units to print in.
+    prefix : str, optional
+        What the anchors of the steps begin with.
     """
 
-    def __init__(self, values: Mapping[str, Value], system: str) -> None:
-        self.values, self.system = values, system
+    def __init__(self, values: Mapping[str, Value], system: str, prefix: str = "eq-") -> None:
+        self.values, self.system, self.prefix = values, system, prefix
 
     def step(
         self, name: str, result: str, formula: str, *, units: bool = True, source: str = ""
@@ -58,13 +60,16 @@ class StepWriter:
             Where the formula is from.
         """
         symbol, formula_in_symbols = self.values[result].symbol, self._with_symbols(formula)
-        values, shown = self._with_values(formula, units), self._in_tex(result, units=True)
-        lines = [values, shown] if len(values) > _LONG else [f"{values} = {shown}"]
+        *values, last = _broken(self._with_values(formula, units))
+        shown = self._in_tex(result, units=True)
+        fits = tex_length(last) + tex_length(shown) < _LONG
+        lines = [*values, f"{last} = {shown}"] if fits else [*values, last, shown]
         if formula_in_symbols == formula:  # nothing to put in
             lines = [formula]
         elif re.sub(r"\\,| ", "", formula_in_symbols) != symbol.replace(" ", ""):
-            lines.insert(0, formula_in_symbols)
-        return Equation(label=f"eq-{result}", name=name, symbol=symbol, lines=lines, source=source)
+            lines = [*_broken(formula_in_symbols), *lines]
+        label = f"{self.prefix}{result}"
+        return Equation(label=label, name=inline(name), symbol=symbol, lines=lines, source=source)
 
     def _with_symbols(self, formula: str) -> str:
         formula = formula.replace("<x>", r"\,")
@@ -72,11 +77,12 @@ class StepWriter:
 
     def _with_values(self, formula: str, units: bool) -> str:
         def value(match: re.Match[str]) -> str:
-            text, power = self._in_tex(match[1], units=units), match[2]
-            grouped = power and (units or "times" in text)
-            return f"({text}){power}" if grouped else text + power
+            text, power = self._in_tex(match[2], units=units), match[3]
+            grouped = (power and (units or "times" in text)) or (match[1] and "times" in text)
+            before = match[1] or ""
+            return f"{before}({text}){power}" if grouped else before + text + power
 
-        return re.sub(r"<(\w+)>(\^?)", value, formula.replace("<x>", r"\times"))
+        return re.sub(r"(/ )?<(\w+)>(\^?)", value, formula.replace("<x>", r"\times"))
 
     def _in_tex(self, name: str, *, units: bool) -> str:
         _, value, quantity, given = self.values[name]
@@ -85,3 +91,23 @@ class StepWriter:
             return in_tex(shown)
         text = number_in_tex(shown)
         return f"({text})" if text.startswith("-") else text
+
+
+def _broken(formula: str) -> list[str]:
+    """Return a formula in lines that fit, broken before signs between large terms."""
+    if tex_length(formula) <= _LONG:
+        return [formula]
+    terms, depth = [""], 0
+    for piece in re.split(r"( [+-] |\\left[(\[]|\\right[)\]]|[{}()])", formula):
+        depth += (piece in ("{", "(")) - (piece in ("}", ")"))
+        if depth == 0 and piece in (" + ", " - "):
+            terms.append(piece.strip() + " ")
+        else:  # a bracket that is closed on another line cannot be as tall as what is in it
+            terms[-1] += re.sub(r"\\(left|right)", "", piece)
+    lines = terms[:1]
+    for term in terms[1:]:
+        if tex_length(lines[-1]) + tex_length(term) <= _LONG:
+            lines[-1] += f" {term}"
+        else:
+            lines.append(rf"{CONTINUED} {term}")
+    return lines

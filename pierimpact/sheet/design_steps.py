@@ -1,0 +1,139 @@
+"""The design procedure step by step: equation, symbols, values put in, and result of each."""
+
+from collections.abc import Iterator, Sequence
+
+from pierimpact.calculation import Calculation
+from pierimpact.design import DesignReaction
+from pierimpact.equations import DesignStep
+from pierimpact.sheet.blocks import Block, Column, Paragraph, Steps, Table
+from pierimpact.sheet.markup import Inline, Tex, inline
+from pierimpact.sheet.step_writer import StepWriter, Value
+from pierimpact.units import printed
+
+# Kinds of quantity by SI unit. Forces, masses, lengths and times are in consistent units, so that
+# values can be put in without a factor.
+_QUANTITIES = {
+    "N": "dynamic force",
+    "kg": "dynamic mass",
+    "N/m": "dynamic stiffness",
+    "m/s": "dynamic speed",
+    "m/s^2": "acceleration",
+    "m": "length",
+    "s": "dynamic time",
+    "rad/s": "circular frequency",
+    "1/s": "decay rate",
+    "rad": "angle",
+    "N s": "impulse",
+    "-": "share",
+}
+
+# Parts of the procedure, and the first step of the next.
+_ENDS = {
+    "plateau": ("engine_first_time",),
+    "engine": ("ringing_time", "pulse_mass"),
+    "ringing": ("cargo_first_time",),
+    "contact": ("cargo_beta",),
+    "cargo": (),
+}
+
+
+def given_table(calculation: Calculation) -> Block:
+    """Return what the procedure starts from, in the units that values are put in with."""
+    system = calculation.case.inputs.units
+    rows: list[list[Inline]] = []
+    for step in calculation.design.given:
+        shown = printed(step.value, _QUANTITIES[step.unit], system, given=True)
+        rows.append([_capital(step.meaning), Tex(step.symbol), shown.number, shown.unit])
+    return Table(
+        label="tab-given",
+        caption="What the procedure starts from, in consistent units.",
+        columns=[
+            Column(heading="Value"),
+            Column(heading="Symbol"),
+            Column(heading="Value", align="decimal"),
+            Column(heading="Unit"),
+        ],
+        rows=rows,
+    )
+
+
+def procedure_steps(calculation: Calculation, part: str) -> Block:
+    """Return a part of the procedure.
+
+    Parameters
+    ----------
+    calculation : Calculation
+        The calculation.
+    part : {"plateau", "engine", "ringing", "contact", "cargo"}
+        Which part.
+    """
+    design = calculation.design
+    steps = _parts(design.steps)[part]
+    if not steps:  # only the last part can have none
+        return Paragraph(
+            ("The cargo stops before it meets the pier, ", Tex("v_2 = 0"), ": it has no reaction.")
+        )
+    write = StepWriter(_values(design), calculation.case.inputs.units)
+    return Steps(
+        [write.step(_capital(step.meaning), step.name, step.formula, units=False) for step in steps]
+    )
+
+
+def hand_table(calculation: Calculation) -> Block:
+    """Return the procedure on its hand level: equations and results."""
+    system = calculation.case.inputs.units
+    rows: list[list[Inline]] = []
+    for step in calculation.hand.steps:
+        value = Value(step.symbol, step.value, _QUANTITIES[step.unit])
+        shown = printed(value.value, value.quantity, system)
+        rows.append(
+            [
+                inline(_capital(step.meaning)),
+                Tex(f"{step.symbol} = {step.equation}"),
+                shown.number,
+                shown.unit,
+            ]
+        )
+    return Table(
+        label="tab-hand",
+        caption="The hand level: a short check from the same starting values.",
+        columns=[
+            Column(heading="Step", wide=True),
+            Column(heading="Equation"),
+            Column(heading="Value", align="decimal"),
+            Column(heading="Unit"),
+        ],
+        rows=rows,
+    )
+
+
+def _parts(steps: Sequence[DesignStep]) -> dict[str, list[DesignStep]]:
+    parts: dict[str, list[DesignStep]] = {part: [] for part in _ENDS}
+    names = iter(_ENDS)
+    part = next(names)
+    for step in steps:
+        if step.name in _ENDS[part]:
+            part = next(names)
+        parts[part].append(step)
+    return parts
+
+
+def _values(design: DesignReaction) -> dict[str, Value]:
+    given = {
+        step.name: Value(step.symbol, step.value, _QUANTITIES[step.unit], True)
+        for step in design.given
+    }
+    return given | {
+        step.name: Value(step.symbol, step.value, _QUANTITIES[step.unit], step.name == "fast_turns")
+        for step in design.steps
+    }
+
+
+def symbols_of_procedure(calculation: Calculation) -> Iterator[tuple[Tex, Inline]]:
+    """Yield symbol and meaning of every value of the procedure."""
+    for step in calculation.design.steps:
+        yield Tex(step.symbol), inline(step.meaning)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

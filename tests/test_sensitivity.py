@@ -1,0 +1,79 @@
+"""The variations about a case, against the same reactions one by one."""
+
+import numpy as np
+import pytest
+
+from pierimpact import (
+    CircularSection,
+    EquivalentPier,
+    PierColumn,
+    design_reaction,
+    load_truck,
+    simulate,
+)
+from pierimpact.sensitivity import MASS_CHANGE, SPEED_CHANGE, sensitivity
+
+TRUCK = load_truck("single-unit-8t")
+COLUMN = PierColumn(
+    height=1.6,
+    section=CircularSection(diameter=0.6),
+    elastic_modulus=25e9,
+    density=2400.0,
+    base="fixed",
+    top="pinned",
+)
+HEIGHT, SPEED = 1.2, 21.0
+PIER = COLUMN.equivalent(HEIGHT, 0.04)
+
+
+@pytest.fixture(scope="module")
+def found():
+    return sensitivity(TRUCK, COLUMN, PIER, HEIGHT, SPEED)
+
+
+def strike(name, value):
+    """Return truck, pier and speed with one of them changed."""
+    if name == "mass":
+        return TRUCK.with_mass(value), PIER, SPEED
+    if name == "impact_height":
+        return TRUCK, COLUMN.equivalent(value, 0.04), SPEED
+    if name == "frequency":
+        stiffness = PIER.mass * (2.0 * np.pi * value) ** 2
+        return TRUCK, EquivalentPier(mass=PIER.mass, stiffness=stiffness, damping_ratio=0.04), SPEED
+    return TRUCK, PIER, value
+
+
+@pytest.mark.parametrize("name", ["speed", "mass", "impact_height", "frequency"])
+def test_each_value_is_that_of_a_calculation_of_its_own(found, name):
+    variation = getattr(found, name)
+    for index in range(0, len(variation.values), 7):
+        truck, pier, speed = strike(name, float(variation.values[index]))
+        history = simulate(truck, pier, speed)
+        design = design_reaction(truck, pier, speed)
+        assert variation.model[index] == pytest.approx(history.governing_peak.reaction, rel=1e-6)
+        assert variation.design[index] == pytest.approx(design.reaction, rel=1e-9)
+        assert np.isnan(variation.cargo[index]) == (history.cargo_peak is None)
+
+
+def test_the_changes_of_a_reviewer(found):
+    assert found.slower.values == [SPEED - SPEED_CHANGE]
+    assert found.faster.values == [SPEED + SPEED_CHANGE]
+    assert found.lighter.values == [TRUCK.mass * (1.0 - MASS_CHANGE)]
+    assert found.heavier.values == [TRUCK.mass * (1.0 + MASS_CHANGE)]
+    assert found.slower.model[0] < found.faster.model[0]
+    history = simulate(TRUCK, PIER, SPEED + SPEED_CHANGE)
+    assert found.faster.model[0] == pytest.approx(history.governing_peak.reaction, rel=1e-6)
+
+
+def test_heights_stay_on_the_column_and_this_pier_is_in_the_spectrum(found):
+    assert found.impact_height.values[-1] < COLUMN.height
+    assert PIER.frequency in found.frequency.values
+
+
+def test_changes_that_cannot_be_are_left_out():
+    light = TRUCK.with_mass(1.2 * TRUCK.engine_mass)
+    slow = sensitivity(light, COLUMN, PIER, HEIGHT, 2.0)
+    assert slow.slower is None
+    assert slow.lighter is None
+    assert slow.faster is not None
+    assert np.all(slow.mass.values > TRUCK.engine_mass)
