@@ -45,6 +45,10 @@ DIMENSIONS = {
     "density": Dimension("kg/m^3", "a density", "kg/m^3, lb/ft^3"),
     "speed": Dimension("m/s", "a speed", "km/h, m/s, mph"),
     "stiffness": Dimension("N/m", "a stiffness", "kN/m, MN/m, kip/in"),
+    "frequency": Dimension("Hz", "a frequency", "Hz"),
+    "time": Dimension("s", "a time", "ms, s"),
+    "energy": Dimension("J", "an energy", "kJ, MJ"),
+    "momentum": Dimension("N*s", "a momentum", "kN*s, kg*m/s"),
 }
 
 _NUMBER = re.compile(

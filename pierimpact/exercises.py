@@ -1,0 +1,154 @@
+"""Exercises that check themselves, and the score of a notebook."""
+
+import html
+from dataclasses import dataclass, field
+
+import ipywidgets as ipw
+from IPython.display import display
+
+from pierimpact.chart import GREEN, GREY, INK, ORANGE
+from pierimpact.checker import Question, Verdict, check
+from pierimpact.checks import InputError, one_of
+from pierimpact.explorer import LIVE, STILL, STYLE
+from pierimpact.questions import QUESTIONS
+from pierimpact.units import DIMENSIONS
+
+
+@dataclass
+class _Score:
+    """How the questions of a notebook stand, by number: tries and whether solved."""
+
+    tries: dict[int, int] = field(default_factory=dict)
+    solved: set[int] = field(default_factory=set)
+    boards: list[ipw.HTML] = field(default_factory=list)
+
+
+_SCORES: dict[str, _Score] = {}
+
+
+def ask(topic: str, number: int) -> "Exercise":
+    """Return the exercise of a topic and number, ready to be answered.
+
+    Parameters
+    ----------
+    topic : str
+        Name of the notebook's subject, such as "collision".
+    number : int
+        Number of the question, from 1.
+
+    Raises
+    ------
+    InputError
+        When there is no such exercise.
+    """
+    one_of("topic", topic, tuple(QUESTIONS))
+    if not 1 <= number <= len(QUESTIONS[topic]):
+        raise InputError(f"number must be 1 to {len(QUESTIONS[topic])}, got {number}")
+    return Exercise(topic, number, QUESTIONS[topic][number - 1])
+
+
+class Exercise:
+    """A question with a box for the answer.
+
+    Parameters
+    ----------
+    topic : str
+        Topic whose score it counts for.
+    number : int
+        Its number there.
+    question : Question
+        The question.
+    """
+
+    def __init__(self, topic: str, number: int, question: Question) -> None:
+        self.topic, self.number, self.question = topic, number, question
+        self.feedback = ipw.HTML()
+        self._checked = ""
+        if question.choices:
+            self.box: ipw.Widget = ipw.RadioButtons(
+                options=question.choices, value=None, layout=ipw.Layout(width="auto")
+            )
+        else:
+            hint = "a number"
+            if question.dimension:
+                unit = DIMENSIONS[question.dimension].units.split(",")[0]
+                hint = f"number and unit, e.g. in {unit}"
+            self.box = ipw.Text(
+                placeholder=hint, continuous_update=False, layout=ipw.Layout(width="230px")
+            )
+            self.box.observe(self.answer, "value")  # on Enter, and on leaving the box
+        button = ipw.Button(description="Check", icon="check", layout=ipw.Layout(width="90px"))
+        button.on_click(self.answer)
+        self.widget = ipw.VBox(
+            [ipw.HTML(self._asked()), ipw.HBox([self.box, button]), self.feedback],
+            layout=ipw.Layout(border_left=f"3px solid {GREY}", padding="2px 0 4px 12px"),
+        )
+        self.widget.add_class(LIVE)
+
+    def answer(self, *_: object) -> Verdict:
+        """Check what stands in the box, say so and keep the score."""
+        given = self.box.value or ""
+        verdict = check(self.question, given)
+        score = _SCORES.setdefault(self.topic, _Score())
+        again, self._checked = given == self._checked, given
+        if verdict.right is not None and self.number not in score.solved and not again:
+            score.tries[self.number] = score.tries.get(self.number, 0) + 1
+            if verdict.right:
+                score.solved.add(self.number)
+        colour = GREEN if verdict.right else ORANGE
+        sign = {True: "✓", False: "✗", None: "…"}[verdict.right]
+        self.feedback.value = (
+            f'<div role="status" style="color:{INK};line-height:1.4">'
+            f'<b style="color:{colour}">{sign}</b> {html.escape(verdict.words)}</div>'
+        )
+        for board in score.boards:
+            board.value = _summary(self.topic)
+        return verdict
+
+    def _asked(self) -> str:
+        return (
+            f'<div style="color:{INK};line-height:1.45;max-width:780px"><b>Exercise '
+            f"{self.number}.</b> {html.escape(self.question.words)}</div>"
+        )
+
+    def _ipython_display_(self) -> None:
+        choices = "".join(f"<li>{html.escape(words)}</li>" for words in self.question.choices)
+        _show(self.widget, f"{self._asked()}{f'<ul>{choices}</ul>' if choices else ''}")
+
+
+def score(topic: str) -> None:
+    """Show how many exercises of a topic are solved; it follows what is answered above."""
+    board = ipw.HTML(_summary(topic))
+    board.add_class(LIVE)
+    _SCORES.setdefault(topic, _Score()).boards.append(board)
+    _show(board, "")
+
+
+def _show(widget: ipw.Widget, still: str) -> None:
+    display(widget)  # type: ignore[no-untyped-call]
+    note = f'<div style="color:{GREY}">To be answered in the live notebook.</div>'
+    display(  # type: ignore[no-untyped-call]
+        {
+            "text/html": f'{STYLE}<div class="{STILL}">{still and still + note}</div>',
+            "text/plain": "",
+        },
+        raw=True,
+    )
+
+
+def _summary(topic: str) -> str:
+    one_of("topic", topic, tuple(QUESTIONS))
+    state = _SCORES.get(topic, _Score())
+    rows = ""
+    for number in range(1, len(QUESTIONS[topic]) + 1):
+        tries = state.tries.get(number, 0)
+        plural = "try" if tries == 1 else "tries"
+        words = f"solved after {tries} {plural}" if number in state.solved else (
+            f"not solved yet, {tries} {plural}" if tries else "not tried yet"
+        )  # fmt: skip
+        mark = "●" if number in state.solved else "○"
+        rows += f'<div><span style="color:{GREEN}">{mark}</span> Exercise {number}: {words}</div>'
+    return (
+        f'<div style="line-height:1.5;color:{INK}"><b>{len(state.solved)} of '
+        f"{len(QUESTIONS[topic])} solved</b>{rows}</div>"
+    )

@@ -1,0 +1,321 @@
+"""The machinery of an explorer: controls with units, views that follow them, a still for print."""
+
+import asyncio
+import html
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from typing import Any
+
+import ipywidgets as ipw
+from IPython.display import display
+
+from pierimpact.chart import GREY
+from pierimpact.checks import InputError
+from pierimpact.scenario import Scenario
+from pierimpact.variables import VARIABLES, Variable, case_text, truck_text
+from pierimpact.views import refusal
+
+#: Pause before a redraw, in which the values of a drag that have already arrived are taken in [s].
+PAUSE = 0.01
+
+# Live widgets and their still stand side by side in a notebook's output; one of them shows. In
+# JupyterLab and Voilà that is the widgets. In a page exported from the notebook, where they would
+# be dead, it is the still.
+LIVE, STILL = "pierimpact-live", "pierimpact-still"
+STYLE = (
+    f"<style>.jp-NotebookPanel .{STILL}, body[data-voila] .{STILL} {{display:none}} "
+    f"body.jp-Notebook:not([data-voila]) .{LIVE} {{display:none}}</style>"
+)
+HOW_TO_GET_LIVE = (
+    "This is a still. To make it live, install with "
+    "<code>pip install 'pierimpact[teach]'</code> and run <code>pierimpact teach</code>."
+)
+
+Views = Mapping[str, str]
+
+
+class Control:
+    """One variable's slider with a box to type in, or its list of choices.
+
+    The box takes any unit of the right kind. What it says counts, even where the slider ends.
+
+    Parameters
+    ----------
+    variable : Variable
+        What it sets.
+    value : float or str
+        Its value to begin with, in SI units.
+    changed : callable
+        Called after every change.
+    """
+
+    def __init__(self, variable: Variable, value: float | str, changed: Callable[[], None]) -> None:
+        self.variable = variable
+        self._value: float | str | InputError = value
+        self._changed = changed
+        self._busy = False
+        name = ipw.HTML(_label(variable.label), layout=ipw.Layout(height="22px", margin="0"))
+        if variable.choices:
+            self.choice = ipw.Dropdown(
+                options=variable.choices, value=value, layout=ipw.Layout(width="110px")
+            )
+            self.choice.observe(self._chosen, "value")
+            name.layout.width = "150px"
+            self.widget: ipw.Widget = ipw.HBox([name, self.choice])
+            return
+        common = {"readout": False, "layout": ipw.Layout(flex="1 1 auto", width="auto")}
+        shown = float(value) / variable.size
+        if variable.log:
+            low, high = math.log10(variable.low), math.log10(variable.high)
+            self.slider = ipw.FloatLogSlider(
+                value=shown, min=low, max=high, step=variable.step, **common
+            )
+        else:
+            self.slider = ipw.FloatSlider(
+                value=shown, min=variable.low, max=variable.high, step=variable.step, **common
+            )
+        self.box = ipw.Text(
+            value=variable.shown(float(value)),
+            continuous_update=False,
+            layout=ipw.Layout(width="96px"),
+        )
+        self.slider.observe(self._slid, "value")
+        self.box.observe(self._typed, "value")
+        self.widget = ipw.VBox(
+            [name, ipw.HBox([self.slider, self.box])], layout=ipw.Layout(margin="0 0 2px 0")
+        )
+
+    @property
+    def value(self) -> float | str:
+        """The value in SI units, or the choice.
+
+        Raises
+        ------
+        InputError
+            When what was typed is no such value.
+        """
+        if isinstance(self._value, InputError):
+            raise self._value
+        return self._value
+
+    def set(self, value: float | str) -> None:
+        """Set the value, and show it."""
+        self._value = value
+        self._busy = True
+        try:
+            if self.variable.choices:
+                self.choice.value = value
+            else:
+                self.box.value = self.variable.shown(float(value))
+                self._move_slider(float(value))
+        finally:
+            self._busy = False
+        self._changed()
+
+    def _chosen(self, change: Mapping[str, Any]) -> None:
+        if not self._busy:
+            self.set(change["new"])
+
+    def _slid(self, change: Mapping[str, Any]) -> None:
+        if not self._busy and not self._snapped(change["new"]):
+            self.set(change["new"] * self.variable.size)
+
+    def _snapped(self, shown: float) -> bool:
+        """Return whether a slider only moved to its nearest step, which JupyterLab makes it do."""
+        if isinstance(self._value, InputError):
+            return False
+        value, step = float(self._value) / self.variable.size, 0.5001 * self.variable.step
+        if self.variable.log:
+            return abs(math.log10(shown / value)) < step
+        return abs(shown - value) < step
+
+    def _typed(self, change: Mapping[str, Any]) -> None:
+        if self._busy:
+            return
+        try:
+            self.set(self.variable.parsed(change["new"]))
+        except InputError as error:
+            self._value = error
+            self._changed()
+
+    def _move_slider(self, value: float) -> None:
+        variable = self.variable
+        shown = min(max(value / variable.size, variable.low), variable.high)
+        # A slider that snapped to its step would otherwise say so, and lose what was typed.
+        if abs(self.slider.value - shown) > 1e-9 * abs(shown):
+            self.slider.value = shown
+
+
+class Explorer:
+    """Controls on the left, views on the right that follow them.
+
+    Parameters
+    ----------
+    controls : list of str
+        Names of the variables on show, of `pierimpact.variables`.
+    hidden : list of str
+        Names of those in a drawer below.
+    draw : callable
+        From a scenario to the views' HTML by name. What it refuses with an `InputError` is shown
+        as a sentence in the first view's place.
+    layout : callable
+        From the views' widgets by name to one widget.
+    defaults : Scenario, optional
+        Values to begin with.
+    title : str
+        What a still is called.
+    still : callable, optional
+        From the default scenario and its views to the still's HTML, where that is more than the
+        views one below the other.
+    """
+
+    def __init__(
+        self,
+        *,
+        controls: list[str],
+        draw: Callable[[Scenario], Views],
+        layout: Callable[[Mapping[str, ipw.HTML]], ipw.Widget],
+        title: str,
+        still: Callable[[Scenario, Views], str] | None = None,
+        hidden: list[str] | None = None,
+        defaults: Scenario | None = None,
+    ) -> None:
+        self.defaults = defaults or Scenario()
+        self.title = title
+        self.redraws = 0
+        self._draw = draw
+        self._waiting = False
+        self.controls = {
+            name: Control(VARIABLES[name], getattr(self.defaults, name), self._changed)
+            for name in [*controls, *(hidden or [])]
+        }
+        self.message = ipw.HTML()
+        first = dict(draw(self.defaults))
+        self.views = {name: ipw.HTML(content) for name, content in first.items()}
+        self._still = still(self.defaults, first) if still else "".join(first.values())
+        self._body = layout(self.views)
+        self.widget = self._assemble(controls, hidden or [])
+        self.widget.add_class(LIVE)
+
+    def scenario(self) -> Scenario:
+        """Return what the controls say.
+
+        Raises
+        ------
+        InputError
+            When one of them says nothing sensible.
+        """
+        known = {field.name: getattr(self.defaults, field.name) for field in fields(Scenario)}
+        return Scenario(**{**known, **{n: c.value for n, c in self.controls.items()}})
+
+    def set(self, **values: float | str) -> None:
+        """Set values by name, in SI units, and redraw."""
+        self._waiting = True  # one redraw for all of them
+        for name, value in values.items():
+            self.controls[name].set(value)
+        self.redraw()
+
+    def reset(self, *_: Any) -> None:
+        """Go back to the defaults."""
+        self.set(**{name: getattr(self.defaults, name) for name in self.controls})
+
+    def redraw(self) -> None:
+        """Draw all views at the present values, or say why that cannot be done."""
+        self._waiting = False
+        self.redraws += 1
+        try:
+            views = self._draw(self.scenario())
+        except InputError as error:
+            self._refuse(f"{error}.")
+        except (ArithmeticError, ValueError, RuntimeError):
+            # A student must not meet a traceback, whatever values were found to break the model.
+            self._refuse("The model has no result for these values. Change one of them.")
+        else:
+            self.message.value = ""
+            for name, content in views.items():
+                self.views[name].value = content
+            self._body.layout.display = None
+
+    def _refuse(self, why: str) -> None:
+        self.message.value = refusal(why)
+        self._body.layout.display = "none"
+
+    def _changed(self) -> None:
+        """Redraw soon: changes that arrive meanwhile are drawn by the same redraw."""
+        self._copied.value = ""
+        if self._waiting:
+            return
+        try:
+            loop = asyncio.get_running_loop()
+        except RuntimeError:  # outside a kernel
+            self.redraw()
+            return
+        self._waiting = True
+        loop.call_later(PAUSE, self.redraw)
+
+    def copy(self, *_: Any) -> None:
+        """Show the values as a case file, and where needed as a truck file."""
+        try:
+            scenario = self.scenario()
+            truck = truck_text(scenario)
+            parts = [("my-case.yaml", case_text(scenario, "my-truck.toml"))]
+        except InputError as error:
+            self._copied.value = refusal(f"{error}.")
+            return
+        if truck:
+            parts.append(("my-truck.toml", truck))
+        self._copied.value = "".join(
+            f'<div style="font-size:12px;color:{GREY}">One click selects; copy into '
+            f"<code>{name}</code></div>"
+            f'<pre style="user-select:all;background:#f6f8fa;padding:8px;font-size:11px;'
+            f'line-height:1.35;overflow:auto;max-height:220px">{html.escape(content)}</pre>'
+            for name, content in parts
+        )
+
+    def _assemble(self, controls: list[str], hidden: list[str]) -> ipw.Widget:
+        self._copied = ipw.HTML()
+        rows: list[ipw.Widget] = [self.controls[name].widget for name in controls]
+        if hidden:
+            drawer = ipw.Accordion(
+                [ipw.VBox([self.controls[name].widget for name in hidden])],
+                titles=("The truck’s crush laws",),
+            )
+            rows.append(drawer)
+        reset = ipw.Button(description="Reset", icon="undo", layout=ipw.Layout(width="92px"))
+        reset.on_click(self.reset)
+        buttons = [reset]
+        if "column_diameter" in self.controls:
+            copy = ipw.Button(
+                description="Copy as case file", icon="copy", layout=ipw.Layout(width="160px")
+            )
+            copy.on_click(self.copy)
+            buttons.append(copy)
+        rows += [ipw.HBox(buttons), self._copied]
+        left = ipw.VBox(rows, layout=ipw.Layout(flex="1 1 250px", max_width="300px"))
+        right = ipw.VBox(
+            [self.message, self._body], layout=ipw.Layout(flex="4 1 560px", min_width="0")
+        )
+        return ipw.Box(
+            [left, right],
+            layout=ipw.Layout(display="flex", flex_flow="row wrap", grid_gap="4px 20px"),
+        )
+
+    @property
+    def still(self) -> str:
+        """The views at the default values, as HTML that needs nothing else."""
+        return (
+            f'{STYLE}<figure class="{STILL}" style="margin:0;max-width:900px">'
+            f"{self._still}<figcaption>{html.escape(self.title)}. {HOW_TO_GET_LIVE}"
+            f"</figcaption></figure>"
+        )
+
+    def _ipython_display_(self) -> None:
+        display(self.widget)  # type: ignore[no-untyped-call]
+        display({"text/html": self.still, "text/plain": self.title}, raw=True)  # type: ignore[no-untyped-call]
+
+
+def _label(words: str) -> str:
+    head, mark, index = words.partition("_")
+    shown = html.escape(head) + (f"<sub>{index[0]}</sub>{html.escape(index[1:])}" if mark else "")
+    return f'<span style="font-size:12.5px">{shown}</span>'

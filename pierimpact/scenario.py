@@ -1,0 +1,244 @@
+"""What the explorers explore: a truck, a column and a speed, with all that follows from them."""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pierimpact.cases import collisions
+from pierimpact.catalogue import load_truck
+from pierimpact.checks import InputError
+from pierimpact.collision import peak_reactions, simulate
+from pierimpact.column import PierColumn, StruckColumn
+from pierimpact.crush import CrushSpring
+from pierimpact.history import CollisionHistory
+from pierimpact.pier import EquivalentPier
+from pierimpact.procedure import design_values
+from pierimpact.sections import CircularSection
+from pierimpact.truck import Truck
+
+Array = NDArray[np.float64]
+
+REFERENCE = load_truck("single-unit-8t")
+#: Shortest time that a history covers, so that the axis keeps still while a slider moves [s].
+DURATION = 0.16
+#: Frequencies of a live spectrum [Hz].
+FREQUENCIES = np.geomspace(2.0, 200.0, 121)
+
+
+class Curves(NamedTuple):
+    """Peak reactions of engine and cargo against pier frequency, shape (n,) [N].
+
+    By the full model, and by the closed formula of the reduction to two degrees of freedom.
+    """
+
+    frequency: Array
+    full: dict[str, Array]
+    reduced: dict[str, Array]
+
+
+@lru_cache(maxsize=16)
+def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -> Curves:
+    """Return the spectra of one truck and speed for piers of one mass and damping.
+
+    Parameters
+    ----------
+    truck : Truck
+        The truck.
+    speed : float
+        Speed at first touch [m/s].
+    pier_mass : float
+        Equivalent mass of the pier [kg].
+    damping_ratio : float
+        Damping ratio of the pier [-].
+    """
+    stiffness = pier_mass * (2.0 * math.pi * FREQUENCIES) ** 2
+    peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)
+    _, parts = collisions(truck, pier_mass, stiffness, damping_ratio, speed)
+    _, case = next(parts)  # fewer piers than one chunk holds
+    reduced = design_values(case, "hand")
+    return Curves(
+        frequency=FREQUENCIES,
+        full={"engine": peaks.engine, "cargo": peaks.cargo},
+        reduced={body: np.asarray(reduced[body]) for body in ("engine", "cargo")},
+    )
+
+
+def body_frequency(mass: float, stiffness: float) -> float:
+    """Frequency f_i = √(k_i/m_i)/2π of a body on its steep spring [Hz]."""
+    return math.sqrt(stiffness / mass) / (2.0 * math.pi)
+
+
+def between(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
+    """Return a motion between its samples, by the cubic that has their values and rates.
+
+    Parameters
+    ----------
+    time, value, rate : ndarray, shape (n,)
+        Samples: times, in ascending order [s], values and their derivatives.
+    at : array_like
+        Times within those of the samples [s].
+    """
+    at = np.asarray(at, dtype=float)
+    after = np.clip(np.searchsorted(time, at), 1, len(time) - 1)
+    before = after - 1
+    length = time[after] - time[before]
+    s = (at - time[before]) / length
+    left = value[before] + s * (3.0 * s - 2.0 * s**2) * (value[after] - value[before])
+    turn = (1.0 - s) * rate[before] - s * rate[after]
+    return np.asarray(left + length * s * (1.0 - s) * turn)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Strike:
+    """One collision.
+
+    Parameters
+    ----------
+    truck : Truck
+        The truck.
+    pier : EquivalentPier
+        The pier.
+    speed : float
+        Speed at first touch [m/s].
+    column : StruckColumn or None, optional
+        The column behind the pier; None where only mass and frequency are given.
+    """
+
+    truck: Truck
+    pier: EquivalentPier
+    speed: float
+    column: StruckColumn | None = None
+
+    @cached_property
+    def history(self) -> CollisionHistory:
+        """The collision by the full model."""
+        return simulate(self.truck, self.pier, self.speed, DURATION)
+
+    def reaction(self, time: ArrayLike) -> Array:
+        """Return the reaction at times after first touch [s], in their shape [N]."""
+        history = self.history
+        displacement = between(history.time, history.pier_displacement, history.pier_velocity, time)
+        return self.pier.stiffness * displacement
+
+    @property
+    def curves(self) -> Curves:
+        """Spectra for piers of this mass and damping."""
+        return curves(self.truck, self.speed, self.pier.mass, self.pier.damping_ratio)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scenario:
+    """The values behind the sliders, in SI units; names are those of case and truck files.
+
+    Parameters
+    ----------
+    speed, truck_mass : float
+        Speed at first touch [m/s] and total mass of the truck [kg].
+    column_diameter, column_height, impact_height : float
+        Of the column [m].
+    base, top : {"fixed", "pinned", "free"}
+        Its ends.
+    damping_ratio : float
+        Of the pier [-].
+    elastic_modulus, density : float
+        Of the column's concrete [Pa], [kg/m³]; usual values, assumed.
+    pier_mass, pier_frequency : float or None
+        Equivalent mass [kg] and frequency [Hz], where they are given instead of a column.
+    engine_mass, friction_force and the crush-law parameters : float
+        Of the truck; the reference truck's by default.
+    """
+
+    speed: float = 80.0 / 3.6
+    truck_mass: float = REFERENCE.mass
+    column_diameter: float = 0.914
+    column_height: float = 5.0
+    impact_height: float = 1.2
+    base: str = "fixed"
+    top: str = "pinned"
+    damping_ratio: float = 0.05
+    elastic_modulus: float = 25e9
+    density: float = 2400.0
+    pier_mass: float | None = None
+    pier_frequency: float | None = None
+    engine_mass: float = REFERENCE.engine_mass
+    friction_force: float = REFERENCE.friction_force
+    engine_plateau_force: float = REFERENCE.engine_spring.plateau_force
+    engine_plateau_length: float = REFERENCE.engine_spring.plateau_length
+    engine_stiffness: float = REFERENCE.engine_spring.stiffness
+    engine_unloading_stiffness: float = REFERENCE.engine_spring.unloading_stiffness
+    body_plateau_force: float = REFERENCE.body_spring.plateau_force
+    body_plateau_length: float = REFERENCE.body_spring.plateau_length
+    body_stiffness: float = REFERENCE.body_spring.stiffness
+    body_unloading_stiffness: float = REFERENCE.body_spring.unloading_stiffness
+
+    @cached_property
+    def truck(self) -> Truck:
+        """The truck.
+
+        Raises
+        ------
+        InputError
+            When a value breaks a rule.
+        """
+        springs = {}
+        for body in ("engine", "body"):
+            try:
+                springs[f"{body}_spring"] = CrushSpring(
+                    **{
+                        name: getattr(self, f"{body}_{name}")
+                        for name in CrushSpring.__dataclass_fields__
+                    }
+                )
+            except InputError as error:
+                raise InputError(f"{body} spring: {error}") from None
+        truck = replace(
+            REFERENCE,
+            engine_mass=self.engine_mass,
+            friction_force=self.friction_force,
+            **springs,  # type: ignore[arg-type]
+        )
+        return truck.with_mass(self.truck_mass)
+
+    @cached_property
+    def column(self) -> PierColumn:
+        """The column.
+
+        Raises
+        ------
+        InputError
+            When a value breaks a rule.
+        """
+        return PierColumn(
+            height=self.column_height,
+            section=CircularSection(diameter=self.column_diameter),
+            elastic_modulus=self.elastic_modulus,
+            density=self.density,
+            base=self.base,
+            top=self.top,
+        )
+
+    @cached_property
+    def strike(self) -> Strike:
+        """The collision.
+
+        Raises
+        ------
+        InputError
+            When a value breaks a rule.
+        """
+        if self.pier_mass is not None and self.pier_frequency is not None:
+            stiffness = self.pier_mass * (2.0 * math.pi * self.pier_frequency) ** 2
+            pier = EquivalentPier(
+                mass=self.pier_mass, stiffness=stiffness, damping_ratio=self.damping_ratio
+            )
+            return Strike(truck=self.truck, pier=pier, speed=self.speed)
+        return Strike(
+            truck=self.truck,
+            pier=self.column.equivalent(self.impact_height, self.damping_ratio),
+            speed=self.speed,
+            column=self.column.struck_at(self.impact_height),
+        )

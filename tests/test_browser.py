@@ -1,0 +1,206 @@
+"""The explorers in a real browser: JupyterLab on loopback, headless Chromium, sliders that move."""
+
+import contextlib
+import hashlib
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from pathlib import Path
+
+import pytest
+
+from pierimpact.scenario import Scenario
+from pierimpact.units import printed
+
+webdriver = pytest.importorskip("selenium.webdriver")
+StaleElementReferenceException = pytest.importorskip(
+    "selenium.common.exceptions"
+).StaleElementReferenceException
+CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+pytestmark = pytest.mark.skipif(
+    not (CHROMIUM and DRIVER), reason="no browser: apt-get install chromium chromium-driver"
+)
+HOUSE = Path(__file__).parents[1]
+TOKEN = "for-loopback-only"
+PATIENCE = 90  # for a server, a kernel or a page to be ready [s]
+OPTIONS = (
+    "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+    "--window-size=1500,1400",
+)  # fmt: skip
+
+
+def until(condition):
+    """Return what `condition` returns as soon as it is true."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        # What the kernel replaces while it is being looked at is looked at again.
+        with contextlib.suppress(StaleElementReferenceException):
+            if found := condition():
+                return found
+        time.sleep(0.1)
+    pytest.fail(f"waited {PATIENCE} s in vain")
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    """Start JupyterLab on copies of the notebooks and return its folder and address."""
+    folder = tmp_path_factory.mktemp("lab")
+    for notebook in (HOUSE / "notebooks").glob("*.ipynb"):
+        shutil.copy(notebook, folder)
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    private = {
+        name: str(folder / f".{name}")
+        for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR",
+                     "JUPYTERLAB_SETTINGS_DIR", "JUPYTERLAB_WORKSPACES_DIR")
+    }  # fmt: skip
+    command = [
+        sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1",
+        f"--port={port}", f"--IdentityProvider.token={TOKEN}", f"--ServerApp.root_dir={folder}",
+    ]  # fmt: skip
+    address = f"http://127.0.0.1:{port}"
+
+    def answers():
+        assert process.poll() is None, (folder / "log").read_text()
+        try:
+            return urllib.request.urlopen(f"{address}/api?token={TOKEN}", timeout=5)
+        except OSError:
+            return None
+
+    with (folder / "log").open("w") as log:
+        environment = os.environ | private | {"PYTHONPATH": str(HOUSE)}
+        process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
+        try:
+            until(answers).close()
+            yield address
+        finally:
+            process.terminate()
+            process.wait(timeout=PATIENCE)
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    options = webdriver.ChromeOptions()
+    options.binary_location = CHROMIUM
+    for option in (*OPTIONS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
+        options.add_argument(option)
+    service = webdriver.ChromeService(executable_path=DRIVER)
+    driver = webdriver.Chrome(options=options, service=service)
+    yield driver
+    driver.quit()
+
+
+class Page:
+    """A notebook in JupyterLab."""
+
+    def __init__(self, browser, server, name):
+        self.browser = browser
+        browser.get(f"{server}/lab/tree/{name}?token={TOKEN}&reset")
+        until(lambda: self.all(".jp-NotebookPanel .jp-Cell"))
+        until(lambda: "Idle" in self.one(".jp-Notebook-ExecutionIndicator").get_attribute(
+            "data-status").title())  # fmt: skip
+        until(self.run_all)
+        until(lambda: self.all(".pierimpact-live svg"))
+
+    def run_all(self):
+        (menu,) = [item for item in self.all("li.lm-MenuBar-item") if item.text == "Run"]
+        menu.click()
+        for item in self.all(".lm-Menu-item[data-command='runmenu:run-all']"):
+            item.click()
+            return True
+        return False
+
+    def all(self, selector):
+        return self.browser.find_elements("css selector", selector)
+
+    def one(self, selector):
+        return until(lambda: self.all(selector))[0]
+
+    def slider(self, words):
+        """Return the handle of the slider under these words."""
+        return self.browser.find_element(
+            "xpath",
+            f"//div[contains(@class, 'widget-html')][contains(., '{words}')]"
+            "/following-sibling::div//div[contains(@class, 'noUi-handle')]",
+        )
+
+    def press(self, handle, key, times):
+        self.browser.execute_script("arguments[0].focus()", handle)
+        for _ in range(times):
+            handle.send_keys(key)
+
+    def readout(self):
+        return self.one(".pierimpact-live").text
+
+    def pixels(self):
+        """Return a digest of what each of the explorer's figures looks like."""
+        return [
+            hashlib.sha256(figure.screenshot_as_png).hexdigest()
+            for figure in self.all(".pierimpact-live svg[role=img]")
+        ]
+
+
+@pytest.fixture(scope="module")
+def page(browser, server):
+    return Page(browser, server, "explorer.ipynb")
+
+
+def force(value):
+    return str(printed(value, "force", "SI"))
+
+
+def test_the_still_is_hidden_beside_the_live_explorer(page):
+    assert not page.one(".pierimpact-still").is_displayed()
+
+
+def test_the_figures_follow_a_slider_with_the_packages_values(page):
+    keys = webdriver.Keys
+    before = page.pixels()
+    assert force(Scenario().strike.history.engine_peak.reaction) in page.readout()
+    page.press(page.slider("Speed V"), keys.ARROW_LEFT, 10)
+    history = Scenario(speed=70.0 / 3.6).strike.history
+    until(lambda: force(history.engine_peak.reaction) in page.readout())
+    assert force(history.cargo_peak.reaction) in page.readout()
+    after = until(lambda: len(found := page.pixels()) == len(before) and found)
+    assert all(old != new for old, new in zip(before, after, strict=True))
+    page.press(page.slider("Speed V"), keys.ARROW_RIGHT, 10)
+    until(lambda: force(Scenario().strike.history.engine_peak.reaction) in page.readout())
+
+
+def test_the_animation_can_be_scrubbed_and_played(page):
+    history = Scenario().strike.history
+    picture = ".pierimpact-live svg[aria-label^='Collision after']"
+
+    def jump(words):
+        (button,) = [b for b in page.all(".pierimpact-live button") if b.text == words]
+        button.click()
+
+    jump("Cargo peak")
+    until(lambda: f"R = {force(history.cargo_peak.reaction)}" in page.one(picture).text)
+    jump("First touch")
+    until(lambda: "R = 0 kN" in page.one(picture).text)
+    page.one(".pierimpact-live .jupyter-widgets.widget-play button").click()
+    until(lambda: "R = 0 kN" not in page.one(picture).text)
+
+
+def test_nonsense_is_answered_in_a_sentence(page):
+    box = page.all(".pierimpact-live input[type=text]")[0]
+    keys = webdriver.Keys
+    box.send_keys(keys.CONTROL, "a")
+    box.send_keys("fast", keys.ENTER)
+    alert = page.one(".pierimpact-live [role=alert]")
+    assert "must be a speed" in alert.text
+    (reset,) = [b for b in page.all(".pierimpact-live button") if b.text == "Reset"]
+    reset.click()
+    until(lambda: not page.all(".pierimpact-live [role=alert]"))
+
+
+def test_no_error_reached_the_notebook(page):
+    assert not page.all("[data-mime-type='application/vnd.jupyter.error']")
+    assert not page.all("[data-mime-type='application/vnd.jupyter.stderr']")

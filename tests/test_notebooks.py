@@ -1,0 +1,60 @@
+"""The teaching notebooks run on a copy, and their pages stand without a kernel."""
+
+import json
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+from nbconvert import HTMLExporter
+from traitlets.config import Config
+
+HOUSE = Path(__file__).parents[1]
+NOTEBOOKS = [*sorted((HOUSE / "notebooks").glob("0*.ipynb")), HOUSE / "notebooks/explorer.ipynb"]
+
+
+@pytest.fixture(scope="module", params=NOTEBOOKS, ids=lambda path: path.stem)
+def executed(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("notebook")
+    notebook = nbformat.read(request.param, as_version=4)
+    config = Config()
+    config.KernelManager.transport_encryption = "auto"
+    config.KernelManager.kernel_name = "python3"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(HOUSE))
+        client = NotebookClient(
+            notebook, timeout=120, resources={"metadata": {"path": folder}}, config=config
+        )
+        return client.execute()
+
+
+def test_it_runs_without_a_word_of_complaint(executed):
+    outputs = [out for cell in executed.cells for out in cell.get("outputs", ())]
+    assert outputs
+    assert not [out for out in outputs if out["output_type"] in ("error", "stream")]
+
+
+def test_its_page_shows_stills_instead_of_widgets(executed):
+    page, _ = HTMLExporter(template_name="lab").from_notebook_node(executed)
+    assert page.count('class="pierimpact-still"') >= 1
+    assert "pierimpact teach" in page
+    assert "body.jp-Notebook:not([data-voila]) .pierimpact-live {display:none}" in page
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_it_holds_prose_and_one_call_per_idea(path):
+    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    for cell in cells:
+        assert not cell.get("outputs")
+        assert cell.get("execution_count") is None
+        if cell["cell_type"] == "code":
+            lines = [line for line in "".join(cell["source"]).splitlines() if line]
+            assert len([line for line in lines if not line.startswith("from ")]) <= 1
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS[:-1], ids=lambda path: path.stem)
+def test_it_has_the_parts_of_a_lesson(path):
+    text = path.read_text(encoding="utf-8")
+    for part in ("**Purpose.**", "**You need**", "What to notice", "## Exercises", "## Sources",
+                 "exercises.score("):  # fmt: skip
+        assert part in text

@@ -1,0 +1,50 @@
+import subprocess
+
+import pytest
+
+from pierimpact import teach
+from pierimpact.checks import InputError
+
+
+@pytest.fixture
+def started(monkeypatch):
+    calls = []
+
+    def run(arguments, **options):
+        calls.append((arguments[1:], options["cwd"]))
+        return subprocess.CompletedProcess(arguments, 3)
+
+    monkeypatch.setattr(teach.subprocess, "run", run)
+    monkeypatch.setattr(teach, "_need", lambda *_: None)
+    return calls
+
+
+def test_the_readers_own_copies_are_opened(tmp_path, started):
+    folder = tmp_path / "course"
+    assert teach.open_notebooks(folder, browser=False) == 3
+    assert started == [(["-m", "jupyterlab", "--no-browser", "01_collision.ipynb"], folder)]
+    names = {file.name for file in folder.iterdir()}
+    assert {"01_collision.ipynb", "06_limits.ipynb", "tti-column.yaml"} <= names
+
+
+def test_the_app_shows_the_explorer(tmp_path, started):
+    teach.serve_app(tmp_path)
+    assert started == [(["-m", "voila", "explorer.ipynb"], tmp_path)]
+
+
+def test_what_a_reader_changed_is_kept(tmp_path):
+    (tmp_path / "01_collision.ipynb").write_text("mine")
+    teach.copy_notebooks(tmp_path)
+    assert (tmp_path / "01_collision.ipynb").read_text() == "mine"
+
+
+def test_a_folder_that_cannot_be_made(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="cannot be written to"):
+        teach.copy_notebooks(tmp_path / "file")
+
+
+def test_a_missing_package_is_named(monkeypatch):
+    monkeypatch.setattr(teach, "find_spec", lambda name: None)
+    with pytest.raises(teach.TeachError, match=r"pip install 'pierimpact\[teach\]'"):
+        teach.open_notebooks()

@@ -1,0 +1,239 @@
+import asyncio
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pierimpact import simulate, widgets
+from pierimpact.casefile import case_from, case_values
+from pierimpact.catalogue import read_truck_file
+from pierimpact.chart import Panel, decades, ticks
+from pierimpact.explorer import PAUSE
+from pierimpact.scenario import REFERENCE, Scenario, between
+from pierimpact.units import printed
+from pierimpact.variables import CRUSH, VARIABLES, case_text, truck_text
+from pierimpact.views import outcome
+
+EXPLORERS = ("collision", "pier", "reduction", "spectra", "design", "sensitivity", "full")
+
+
+ON_SHOW = tuple(widgets.collision().controls)
+
+
+@pytest.fixture(scope="module")
+def full():
+    return widgets.full()
+
+
+@pytest.fixture(scope="module")
+def collision():
+    return widgets.collision()
+
+
+@pytest.mark.parametrize("name", EXPLORERS)
+def test_every_explorer_redraws_and_resets(name):
+    explorer = getattr(widgets, name)()
+    before = {view: widget.value for view, widget in explorer.views.items()}
+    assert all("<svg" in content or view == "readout" for view, content in before.items())
+    first = next(iter(explorer.controls))
+    explorer.set(**{first: 0.9 * getattr(explorer.defaults, first)})
+    changed = [view for view, widget in explorer.views.items() if widget.value != before[view]]
+    assert changed == list(before)
+    explorer.reset()
+    assert {view: widget.value for view, widget in explorer.views.items()} == before
+
+
+@pytest.mark.parametrize("name", EXPLORERS)
+def test_a_still_needs_nothing_and_says_how_to_get_the_live_one(name):
+    still = getattr(widgets, name)().still
+    assert "<svg" in still
+    assert "pierimpact teach" in still
+    assert "<script" not in still
+    assert not re.search(r"(src|href|url\()", still)
+
+
+def test_the_printed_peaks_are_those_of_the_model(full):
+    speeds = np.random.default_rng(6).uniform(8.0, 30.0, 5)
+    for speed in speeds:
+        full.set(speed=float(speed))
+        strike = full.scenario().strike
+        history = simulate(strike.truck, strike.pier, float(speed))
+        shown = full.views["readout"].value
+        assert str(printed(history.engine_peak.reaction, "force", "SI")) in shown
+        if history.cargo_peak is None:
+            assert "The cargo stops short" in shown or "Neither" in shown
+        else:
+            assert str(printed(history.cargo_peak.reaction, "force", "SI")) in shown
+
+
+def test_no_contact_is_said_in_a_sentence():
+    assert outcome(Scenario(speed=20.0 / 3.6).strike).startswith("Neither engine nor cargo")
+
+
+def test_a_mechanism_is_refused_in_a_sentence_and_taken_back(full):
+    full.reset()
+    full.set(base="pinned", top="free")
+    assert "mechanism" in full.message.value
+    assert full._body.layout.display == "none"
+    full.reset()
+    assert full.message.value == ""
+    assert full._body.layout.display is None
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("fast", "Speed V must be a speed"),
+        ("80 kN", "which is a force"),
+        ("-3 km/h", "must be positive"),
+        ("nan", "must be finite"),
+        ("", "Speed V must be a speed"),
+        ("1e999 km/h", "must be finite"),
+    ],
+)
+def test_nonsense_in_a_box_is_refused_in_a_sentence(full, typed, said):
+    full.reset()
+    full.controls["speed"].box.value = typed
+    assert said in full.message.value
+    assert "Traceback" not in full.message.value
+    full.reset()
+
+
+def test_markup_in_a_box_is_shown_as_text(full):
+    full.reset()
+    full.controls["speed"].box.value = "<img src=x>"
+    assert "<img" not in full.message.value
+    full.reset()
+
+
+def anywhere_on_its_slider(name):
+    variable = VARIABLES[name]
+    if variable.choices:
+        return st.sampled_from(variable.choices)
+    return st.floats(variable.low * variable.size, variable.high * variable.size)
+
+
+@settings(max_examples=40, deadline=None)
+@given(values=st.fixed_dictionaries({n: anywhere_on_its_slider(n) for n in ON_SHOW}))
+def test_no_values_of_the_sliders_raise(collision, values):
+    collision.set(**values)
+    refused = collision.message.value
+    assert refused or "Engine peak" in collision.views["readout"].value
+    assert "no result" not in refused
+
+
+def test_units_of_another_system_are_understood(full):
+    full.reset()
+    full.controls["speed"].box.value = "50 mph"
+    assert full.scenario().speed == pytest.approx(50 * 1609.344 / 3600)
+    full.controls["column_diameter"].box.value = "36 in"
+    assert full.scenario().column_diameter == pytest.approx(0.9144)
+    full.reset()
+
+
+def test_what_is_typed_counts_beyond_the_slider(full):
+    full.reset()
+    full.controls["truck_mass"].box.value = "60 t"
+    assert full.scenario().truck_mass == pytest.approx(60e3)
+    assert full.controls["truck_mass"].slider.value == VARIABLES["truck_mass"].high
+    full.reset()
+
+
+def test_a_slider_that_snaps_to_its_step_does_not_change_the_value(full):
+    full.reset()
+    control = full.controls["column_diameter"]
+    control.slider.value = 0.92  # where the browser puts 0.914 with a step of 0.02
+    assert full.scenario().column_diameter == full.defaults.column_diameter
+    control.slider.value = 1.0
+    assert full.scenario().column_diameter == pytest.approx(1.0)
+    full.reset()
+
+
+def test_dragging_redraws_once_and_with_the_newest_value():
+    explorer = widgets.collision()
+
+    async def drag():
+        before = explorer.redraws
+        for speed in range(30, 90):
+            explorer.controls["speed"].slider.value = speed
+        assert explorer.redraws == before
+        await asyncio.sleep(5 * PAUSE)
+        assert explorer.redraws == before + 1
+
+    asyncio.run(drag())
+    history = Scenario(speed=89 / 3.6).strike.history
+    assert (
+        str(printed(history.engine_peak.reaction, "force", "SI")) in explorer.views["readout"].value
+    )
+
+
+def test_the_picture_shows_the_instant_asked_for():
+    explorer = widgets.collision()
+    history = explorer.strike.history
+    for moment, reaction in (
+        (0.0, 0.0),
+        (history.engine_peak.time, history.engine_peak.reaction),
+        (history.cargo_peak.time, history.cargo_peak.reaction),
+    ):
+        explorer.show(moment)
+        assert explorer.time == moment
+        picture = explorer.views["picture"].value
+        assert f"{1e3 * moment:.1f} ms" in picture
+        assert f"R = {printed(reaction, 'force', 'SI')}" in picture
+
+
+def test_a_cubic_is_found_between_its_samples():
+    time = np.array([0.0, 0.3, 1.0, 1.1, 2.0])
+    cubic = np.polynomial.Polynomial([1.0, -2.0, 0.5, 3.0])
+    at = np.linspace(0.0, 2.0, 50)
+    assert between(time, cubic(time), cubic.deriv()(time), at) == pytest.approx(cubic(at))
+
+
+def test_the_case_file_gives_the_same_collision(tmp_path):
+    scenario = Scenario(speed=23.4, truck_mass=12e3, column_diameter=1.1, top="free",
+                        engine_stiffness=210e6, friction_force=5e3)  # fmt: skip
+    (tmp_path / "case.yaml").write_text(case_text(scenario, "truck.toml"), encoding="utf-8")
+    (tmp_path / "truck.toml").write_text(truck_text(scenario), encoding="utf-8")
+    case = case_from(case_values(tmp_path / "case.yaml"), folder=tmp_path)
+    assert case.inputs.speed == pytest.approx(scenario.speed)
+    assert case.column == scenario.column
+    for name in ("engine_mass", "body_mass", "friction_force", "friction_on"):
+        assert getattr(case.truck, name) == getattr(scenario.truck, name)
+    assert case.truck.engine_spring == scenario.truck.engine_spring
+    assert case.truck.body_spring == scenario.truck.body_spring
+
+
+def test_the_case_file_of_the_reference_truck_names_it():
+    assert f"truck: {REFERENCE.name}\n" in case_text(Scenario(), "truck.toml")
+    assert truck_text(Scenario()) == ""
+
+
+def test_every_crush_parameter_is_in_the_truck_file():
+    names = {
+        entry.name.replace("_spring.", "_") for entry in read_truck_file(REFERENCE.name).parameters
+    }
+    assert names - {"body_mass", "friction_on"} == set(CRUSH)
+
+
+@given(low=st.floats(-1e6, 1e6), width=st.floats(1e-3, 1e6), count=st.integers(2, 9))
+def test_ticks_are_few_even_and_inside(low, width, count):
+    found = ticks(low, low + width, count)
+    assert len(found) <= count + 1
+    slack = 1e-6 * width
+    assert np.all((found >= low - slack) & (found <= low + width + slack))
+    if len(found) > 2:
+        assert np.allclose(np.diff(found), found[1] - found[0], rtol=1e-6)
+
+
+def test_logarithmic_ticks():
+    assert decades(2.0, 200.0) == [2, 5, 10, 20, 50, 100, 200]
+
+
+def test_a_line_is_interrupted_where_it_is_not_known():
+    panel = Panel(title="", x_label="", y_label="", x_range=(0, 3), y_range=(0, 1))
+    panel.line([0, 1, 2, 3], [0, np.nan, 1, 0], "black")
+    (path,) = [part for part in panel._over if "<path" in part]
+    assert path.count("M") == 2
+    assert "nan" not in path
