@@ -131,6 +131,11 @@ class SheetHTMLExporter(_SheetExporter):
     pandoc_options = ("--to=html5", "--mathml", "--number-sections", "--shift-heading-level-by=1")
     math = re.compile(r'<(span|div) class="math( display)?">\\[(\[](.*?)\\[)\]]</\1>', re.DOTALL)
 
+    def _create_environment(self) -> Environment:
+        environment: Environment = super()._create_environment()  # type: ignore[no-untyped-call]
+        environment.filters["css_string"] = _css_string
+        return environment
+
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
         sheet = super()._sheet(nb)
         # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
@@ -182,6 +187,12 @@ def _numbered(page: str) -> str:
         ),
         page,
     )
+
+
+def _css_string(text: str) -> str:
+    """Return text for a string of a style sheet, short enough for the head of a page."""
+    short = text if len(text) <= 80 else text[:79] + "…"
+    return "".join(c if c.isascii() and c.isalnum() else f"\\{ord(c):x} " for c in short)
 
 
 def _with_contents(page: str) -> str:

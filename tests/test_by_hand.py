@@ -127,7 +127,7 @@ def sheet(request, tmp_path_factory):
         case.write_text(EXAMPLE.read_text("utf-8"), encoding="utf-8")
     else:
         case.write_text(yaml.safe_dump(cases[request.param]), encoding="utf-8")
-    page = write_report(case, folder, progress=False).html.read_text("utf-8")
+    page = write_report(case, folder).html.read_text("utf-8")
     result = Sheet(page)
     for label in ("tab-inputs", "tab-truck"):
         for row in result.rows(label):

@@ -25,7 +25,8 @@ from pierimpact.units import printed
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
 NASTY = (
     r"""<b>&amp; #let x = $y$ @ref \ "q" 's' `code` *b* _i_ //x [l](u) ~ = {{x}} ((* x *)) """
-    r"""((= x =)) \(z\) <script>alert(1)</script> <!-- Мост Ελλάδα"""
+    r"""((= x =)) \(z\) <script>alert(1)</script> <!-- Мост через реку Ελλάδα γέφυρα, """
+    r"""</style> } @page { content: "x" } { and on and on, to two hundred characters"""
 )
 US_CASE = {
     "project": NASTY,
@@ -246,6 +247,7 @@ def test_no_code_is_shown(made):
 
 def test_text_from_users_prints_as_typed(us):
     _, files = us
+    assert len(NASTY) >= 200
     page = Text(files.html.read_text("utf-8"))
     # In the title block, in both tables of sources and among the notes.
     assert squeezed(page.text).count(squeezed(NASTY)) == 4

@@ -355,7 +355,7 @@ class Equation:
     @property
     def long(self) -> bool:
         """Whether it wants the width of the page."""
-        return max(map(tex_length, self.lines)) > 60
+        return max(map(tex_length, self.lines)) > 48
 
     @property
     def tex(self) -> str:

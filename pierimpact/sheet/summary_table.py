@@ -62,10 +62,10 @@ _RESULTS = (
         lambda result: cargo.reaction if (cargo := result.history.cargo_peak) else None,
     ),
     _Quantity(
-        "governing reaction",
-        "Governing reaction",
+        "design reaction",
+        "Design reaction",
         "force",
-        lambda result: result.governing_peak.reaction,
+        lambda result: result.design_force,
     ),
 )
 _UTILISATIONS = ("shear", "moment")
@@ -118,7 +118,7 @@ def summary_csv(rows: Sequence[Row]) -> str:
                 *(inputs.project, inputs.job_number, inputs.element, _column(result, system)),
                 truck,
                 *(_in_unit(column, result, system) for column in columns),
-                _governs(result),
+                result.governs,
                 *(result.utilisations.get(check) for check in _UTILISATIONS),
             ]
         status = "not calculated" if result is None else "calculated"
@@ -176,11 +176,11 @@ def _title_block(results: Sequence[Calculation], system: str) -> Block:
 def _headline(rows: Sequence[Row], system: str) -> Block:
     """Return how many cases there are, and the worst of them."""
     results = _calculated(rows)
-    worst = max(results, key=lambda name: results[name].governing_peak.reaction)
-    reaction = printed(results[worst].governing_peak.reaction, "force", system)
+    worst = max(results, key=lambda name: results[name].design_force)
+    reaction = printed(results[worst].design_force, "force", system)
     entries = [
         ("Cases calculated", Printed(str(len(results)), ""), f"of {len(rows)}"),
-        ("Largest governing reaction", reaction, worst),
+        ("Largest design reaction", reaction, worst),
     ]
     ratios = [
         (ratio, check, name)
@@ -208,7 +208,7 @@ def _results_table(rows: Sequence[Row], system: str) -> Block:
         [
             _link(name),
             *(_shown(column, result, system) for column in _RESULTS),
-            _governs(result),
+            result.governs,
             *(
                 rounded(result.utilisations[check], 3) if check in result.utilisations else "—"
                 for check in checks
@@ -220,7 +220,8 @@ def _results_table(rows: Sequence[Row], system: str) -> Block:
     return Table(
         label="tab-results",
         caption=(
-            "Results. The governing reaction is the larger of engine and cargo peak, and ",
+            "Results. Engine and cargo peak are those of the full model; the design reaction is "
+            "the larger of its and of the design procedure’s, and ",
             Tex(r"f_\mathrm{p}"),
             " the frequency of the pier.",
         ),
@@ -294,10 +295,6 @@ def _shown(column: _Quantity, result: Calculation, system: str) -> str:
     if value is None:
         return NONE
     return printed(value, column.quantity, system, given=column.given).number
-
-
-def _governs(result: Calculation) -> str:
-    return "cargo" if result.governing_peak == result.history.cargo_peak else "engine"
 
 
 def _column(result: Calculation, system: str) -> str:
