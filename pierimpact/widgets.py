@@ -95,7 +95,7 @@ class CollisionExplorer(Explorer):
         self._cursor.value = self._panels.cursor(self.time)
 
     def _arranged(self, shown: Mapping[str, ipw.HTML]) -> ipw.Widget:
-        wide = {"flex": "1 1 340px", "min_width": "300px"}
+        wide = {"flex": "1 1 290px", "min_width": "260px"}
         for layer in (shown["time"], self._cursor):
             layer.layout.grid_area = "1 / 1 / 2 / 2"
         charts = [
