@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.cases import collisions
-from pierimpact.checks import positive, positive_array
+from pierimpact.checks import one_of, positive, positive_array
 from pierimpact.collision import peak_reactions
 from pierimpact.formulas import amplification
-from pierimpact.procedure import design_values
+from pierimpact.procedure import LEVELS, design_values
 from pierimpact.reduction import exact_amplification
 from pierimpact.truck import Truck
 
@@ -83,7 +83,7 @@ def engine_spectrum(
     Raises
     ------
     InputError
-        When a value is out of range.
+        When a value is out of range or the level unknown.
     """
     return _spectrum("engine", truck, speed, pier_mass, damping_ratio, frequency, level)
 
@@ -109,6 +109,7 @@ def _spectrum(
     frequency: ArrayLike,
     level: str,
 ) -> Spectrum:
+    one_of("level", level, LEVELS)
     frequency = np.atleast_1d(positive_array("frequency", frequency))
     pier_mass = positive("pier_mass", pier_mass)
     stiffness = pier_mass * (2.0 * math.pi * frequency) ** 2

@@ -28,6 +28,8 @@ Summary = dict[str, float]
 SIZE, SEED = 6000, 20170101
 #: So many of the cases are also followed one by one, for the speeds at contact.
 FOLLOWED = 1000
+#: So many cases are in the file one by one, so that anyone sees whether it is up to date.
+SHOWN = 20
 OUTCOME_FILE = Path(__file__).with_name("study.json")
 #: Arguments of the closed spectrum that are fitted, and the values in use.
 COEFFICIENTS = {
@@ -230,6 +232,10 @@ def study(size: int = SIZE, seed: int = SEED) -> dict[str, Any]:
         },
         "predicted over CMSD": {
             level: assessment(case, reactions, predictions(case, level)) for level in LEVELS
+        },
+        "governing of the first cases, predicted over CMSD": {
+            level: (predictions(case, level).governing / reactions.governing)[:SHOWN].tolist()
+            for level in LEVELS
         },
         "error of the approach speed over the truck's": speed_errors(
             take(case, slice(0, FOLLOWED))
