@@ -64,7 +64,8 @@ class CollisionExplorer(Explorer):
             defaults=defaults,
         )
         self.frame.observe(lambda _: self._show_frame(), "value")
-        self.frame.value = self.animation.index(self.strike.history.engine_peak.time)
+        self.show(self.strike.history.engine_peak.time)
+        self.play.value = self.frame.value  # or a page could start from either
 
     def _views(self, scenario: Scenario) -> Views:
         strike = scenario.strike
