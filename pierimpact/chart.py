@@ -122,7 +122,7 @@ class Panel:
             self._legend.append((name, colour, "area"))
 
     def band(self, start: float, end: float, colour: str, name: str = "") -> None:
-        """Shade a stretch of the horizontal axis, with its name along the top."""
+        """Shade a stretch of the horizontal axis, with its name along the bottom."""
         left, top, right, bottom = self.frame
         x0, x1 = (min(max(float(self.x(value)), left), right) for value in (start, end))
         if x1 - x0 < 0.5:
@@ -132,7 +132,7 @@ class Panel:
             f'fill="{colour}" fill-opacity="0.13"/>'
         )
         if name and x1 - x0 > 6.0 * len(name):
-            self._under.append(text((x0 + x1) / 2.0, top + 11.0, name, colour, 10, "middle"))
+            self._under.append(text((x0 + x1) / 2.0, bottom - 5.0, name, colour, 10, "middle"))
 
     def level(self, value: float, colour: str, name: str, *, dash: str = "5 4") -> None:
         """Draw a horizontal line across, with its name on it."""

@@ -1,6 +1,7 @@
 """Exercises that check themselves, and the score of a notebook."""
 
 import html
+import re
 from dataclasses import dataclass, field
 
 import ipywidgets as ipw
@@ -108,12 +109,17 @@ class Exercise:
     def _asked(self) -> str:
         return (
             f'<div style="color:{INK};line-height:1.45;max-width:780px"><b>Exercise '
-            f"{self.number}.</b> {html.escape(self.question.words)}</div>"
+            f"{self.number}.</b> {_indexed(self.question.words)}</div>"
         )
 
     def _ipython_display_(self) -> None:
         choices = "".join(f"<li>{html.escape(words)}</li>" for words in self.question.choices)
         _show(self.widget, f"{self._asked()}{f'<ul>{choices}</ul>' if choices else ''}")
+
+
+def _indexed(words: str) -> str:
+    """Return text as HTML, with symbols such as f_p written with an index."""
+    return re.sub(r"\b(\w)_(\w+)\b", r"<i>\1</i><sub>\2</sub>", html.escape(words))
 
 
 def score(topic: str) -> None:

@@ -64,7 +64,8 @@ class CollisionExplorer(Explorer):
             defaults=defaults,
         )
         self.frame.observe(lambda _: self._show_frame(), "value")
-        self.frame.value = self.animation.index(self.strike.history.engine_peak.time)
+        self.show(self.strike.history.engine_peak.time)
+        self.play.value = self.frame.value  # or a page could start from either
 
     def _views(self, scenario: Scenario) -> Views:
         strike = scenario.strike
@@ -95,7 +96,7 @@ class CollisionExplorer(Explorer):
         self._cursor.value = self._panels.cursor(self.time)
 
     def _arranged(self, shown: Mapping[str, ipw.HTML]) -> ipw.Widget:
-        wide = {"flex": "1 1 340px", "min_width": "300px"}
+        wide = {"flex": "1 1 290px", "min_width": "260px"}
         for layer in (shown["time"], self._cursor):
             layer.layout.grid_area = "1 / 1 / 2 / 2"
         charts = [
