@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import pierimpact
 from pierimpact.checks import InputError
+from pierimpact.teach import DEFAULT_FOLDER, TeachError, open_notebooks, serve_app
 
 _REPORT = """\
 Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
@@ -22,6 +23,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code: 2 for bad input, 1 for what else fails."""
     options = _parser().parse_args(arguments)
     try:
+        if options.command == "teach":
+            return _teach(options.app, options.folder, options.browser)
         return _report(options.cases, options.output)
     except InputError as error:
         _complain(error)
@@ -38,7 +41,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--version", action="version", version=f"pierimpact {pierimpact.__version__}"
     )
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     report = commands.add_parser(
         "report",
         help="calculate cases and write their reports",
@@ -55,7 +58,33 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument(
         "--output", metavar="DIR", default="reports", help="folder to write to (default: reports)"
     )
+    teach = commands.add_parser(
+        "teach",
+        help="open the teaching notebooks",
+        description="Copy the teaching notebooks to a folder of yours and open them in JupyterLab.",
+    )
+    teach.add_argument(
+        "--app", action="store_true", help="serve the explorer alone, as a page without code"
+    )
+    teach.add_argument(
+        "--folder",
+        metavar="DIR",
+        default=DEFAULT_FOLDER,
+        help="where your copies are, or come to be; what is there already is kept (default: "
+        "%(default)s)",
+    )
+    teach.add_argument(
+        "--no-browser", dest="browser", action="store_false", help="do not open a browser"
+    )
     return parser
+
+
+def _teach(app: bool, folder: str, browser: bool) -> int:
+    try:
+        return (serve_app if app else open_notebooks)(folder, browser=browser)
+    except TeachError as error:
+        _complain(error)
+        return 1
 
 
 def _report(paths: Sequence[str], output: str) -> int:

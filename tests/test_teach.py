@@ -2,7 +2,7 @@ import subprocess
 
 import pytest
 
-from pierimpact import teach
+from pierimpact import cli, teach
 from pierimpact.checks import InputError
 
 
@@ -48,3 +48,21 @@ def test_a_missing_package_is_named(monkeypatch):
     monkeypatch.setattr(teach, "find_spec", lambda name: None)
     with pytest.raises(teach.TeachError, match=r"pip install 'pierimpact\[teach\]'"):
         teach.open_notebooks()
+
+
+@pytest.mark.parametrize(
+    ("options", "program"), [([], "jupyterlab"), (["--app"], "voila")], ids=["lab", "app"]
+)
+def test_the_command_opens_the_readers_copies(options, program, tmp_path, started):
+    folder = tmp_path / "mine"
+    assert cli.main(["teach", *options, "--folder", str(folder), "--no-browser"]) == 3
+    [(arguments, where)] = started
+    assert program in arguments
+    assert "--no-browser" in arguments
+    assert where == folder
+
+
+def test_the_command_says_what_is_missing(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(teach, "find_spec", lambda module: None)
+    assert cli.main(["teach", "--folder", str(tmp_path)]) == 1
+    assert capsys.readouterr().err.startswith("pierimpact: the notebooks need jupyterlab: ")
