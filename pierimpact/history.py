@@ -30,8 +30,9 @@ Array: TypeAlias = NDArray[np.float64]
 
 ENGINE, BODY, PIER = range(3)  # as in a series
 
-# No mode turns by more than three radians in a piece, so that a dozen samples draw it smoothly.
-FRACTIONS = np.linspace(0.0, 1.0, 13)
+# No mode turns by more than three radians in a piece: a chord between two of these samples misses
+# its crest by less than 0.2 % of the amplitude.
+FRACTIONS = np.linspace(0.0, 1.0, 25)
 
 
 @dataclass(frozen=True, kw_only=True)
