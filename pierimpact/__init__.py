@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from pierimpact.collision import peak_reactions, simulate
     from pierimpact.column import PierColumn
     from pierimpact.crush import CrushSpring
-    from pierimpact.design import design_reaction, design_reactions
+    from pierimpact.design.reaction import design_reaction, design_reactions
     from pierimpact.pier import EquivalentPier
     from pierimpact.sections import CircularSection, RectangularSection
     from pierimpact.spectra import cargo_spectrum, engine_spectrum
@@ -28,8 +28,8 @@ _HOMES = {
     "RectangularSection": "sections",
     "Truck": "truck",
     "cargo_spectrum": "spectra",
-    "design_reaction": "design",
-    "design_reactions": "design",
+    "design_reaction": "design.reaction",
+    "design_reactions": "design.reaction",
     "engine_spectrum": "spectra",
     "load_truck": "catalogue",
     "peak_reactions": "collision",

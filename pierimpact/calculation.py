@@ -6,7 +6,7 @@ from functools import cached_property
 from pierimpact.casefile import Case
 from pierimpact.collision import simulate
 from pierimpact.column import StruckColumn
-from pierimpact.design import (
+from pierimpact.design.reaction import (
     LOW_IMPACT_HEIGHT,
     DesignReaction,
     design_reaction,

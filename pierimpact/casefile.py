@@ -13,7 +13,7 @@ import yaml
 from pierimpact.catalogue import TruckFile, read_truck_file
 from pierimpact.checks import InputError
 from pierimpact.column import PierColumn
-from pierimpact.design import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
+from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.inputs import Inputs, read_inputs
 from pierimpact.sections import CircularSection, RectangularSection, Section
 from pierimpact.truck import Truck

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 import ipywidgets as ipw
 from IPython.display import display
 
-from pierimpact.chart import GREEN, GREY, INK, ORANGE
-from pierimpact.checker import Question, Verdict, check
 from pierimpact.checks import InputError, one_of
-from pierimpact.explorer import LIVE, STILL, STYLE
-from pierimpact.questions import QUESTIONS
+from pierimpact.teaching.chart import GREEN, GREY, INK, ORANGE
+from pierimpact.teaching.checker import Question, Verdict, check
+from pierimpact.teaching.explorer import LIVE, STILL, STYLE
+from pierimpact.teaching.questions import QUESTIONS
 from pierimpact.units import DIMENSIONS
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from pierimpact.collision import peak_reactions
 from pierimpact.column import PierColumn
-from pierimpact.design import design_reactions
+from pierimpact.design.reaction import design_reactions
 from pierimpact.pier import EquivalentPier
 from pierimpact.truck import Truck
 

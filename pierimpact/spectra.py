@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.cases import collisions
 from pierimpact.checks import one_of, positive, positive_array
 from pierimpact.collision import peak_reactions
-from pierimpact.formulas import amplification
-from pierimpact.procedure import LEVELS, design_values
+from pierimpact.design.formulas import amplification
+from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.reduction import exact_amplification
 from pierimpact.truck import Truck
 

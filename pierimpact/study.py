@@ -1,8 +1,8 @@
 """The parametric study behind the design formulas: refits them and says how good they are.
 
-`python -m pierimpact.study` draws the random collisions of `pierimpact.domain`, solves each by
+`python -m pierimpact.study` draws random collisions of the domain, solves each by
 the full model, refits the closed spectrum, and writes the outcome to `study.json` beside this
-file. The coefficients in `pierimpact.formulas` are those of the file, rounded.
+file. The coefficients in `pierimpact.design.formulas` are those of the file, rounded.
 """
 
 import json
@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact import domain, formulas
 from pierimpact.cases import CHUNK, collision
+from pierimpact.design import domain, formulas
+from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.motion import OUTCOMES, STEEP, Collision, Law, Spring, State, follow, follow_all
 from pierimpact.pier import EquivalentPier
-from pierimpact.procedure import LEVELS, design_values
 from pierimpact.reduction import exact_amplification
 from pierimpact.truck import Truck
 

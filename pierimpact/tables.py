@@ -8,8 +8,8 @@ from IPython.display import HTML
 
 from pierimpact.catalogue import read_truck_file
 from pierimpact.codes import code_forces
-from pierimpact.scenario import REFERENCE
 from pierimpact.study import OUTCOME_FILE
+from pierimpact.teaching.scenario import REFERENCE
 from pierimpact.units import printed
 
 

@@ -8,11 +8,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact import domain, spectrum_figures
 from pierimpact.crush import CrushSpring
-from pierimpact.formulas import amplification
+from pierimpact.design import domain
+from pierimpact.design.formulas import amplification
+from pierimpact.design.procedure import LEVELS
 from pierimpact.motion import Collision
-from pierimpact.procedure import LEVELS
+from pierimpact.plots import validation as spectrum_figures
 from pierimpact.reduction import exact_amplification
 from pierimpact.sheet.blocks import Block, Column, Figure, Table
 from pierimpact.sheet.markup import Inline

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 
 import ipywidgets as ipw
 
-from pierimpact import theory_views, views
-from pierimpact.animation import FRAMES, Animation
-from pierimpact.explorer import Explorer, Views
-from pierimpact.scenario import Scenario
-from pierimpact.variables import CRUSH
+from pierimpact.teaching import theory_views, views
+from pierimpact.teaching.animation import FRAMES, Animation
+from pierimpact.teaching.explorer import Explorer, Views
+from pierimpact.teaching.scenario import Scenario
+from pierimpact.teaching.variables import CRUSH
 
 _COLUMN = ["column_diameter", "column_height", "base", "top", "damping_ratio"]
 # The pier of the notebooks on reduction and spectra: between soft and stiff.

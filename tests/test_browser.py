@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from pierimpact.scenario import Scenario
+from pierimpact.teaching.scenario import Scenario
 from pierimpact.units import printed
 
 webdriver = pytest.importorskip("selenium.webdriver")

@@ -14,15 +14,15 @@ from pierimpact import (
     PierColumn,
     design_reaction,
     design_reactions,
-    domain,
     load_truck,
     peak_reactions,
     simulate,
     study,
 )
 from pierimpact.cases import collisions
-from pierimpact.design import MUCH_SMALLER, nominal_impact_height
-from pierimpact.procedure import LEVELS, design_values
+from pierimpact.design import domain
+from pierimpact.design.procedure import LEVELS, design_values
+from pierimpact.design.reaction import MUCH_SMALLER, nominal_impact_height
 from pierimpact.reduction import exact_amplification
 
 GENERATED = settings(deadline=None, derandomize=True, max_examples=60)

@@ -3,8 +3,9 @@ import math
 import numpy as np
 import pytest
 
-from pierimpact import EquivalentPier, domain, load_truck
+from pierimpact import EquivalentPier, load_truck
 from pierimpact.cases import collision
+from pierimpact.design import domain
 from pierimpact.study import take
 
 SIZE = 4000

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pierimpact import EquivalentPier, design_reaction, load_truck
-from pierimpact.equations import GIVEN
-from pierimpact.procedure import LEVELS
+from pierimpact.design.equations import GIVEN
+from pierimpact.design.procedure import LEVELS
 
 GENERATED = settings(deadline=None, derandomize=True, max_examples=80)
 TRUCK = load_truck("single-unit-8t")

@@ -4,9 +4,9 @@ from pathlib import Path
 import pytest
 
 from pierimpact import exercises
-from pierimpact.checker import Question, check
 from pierimpact.checks import InputError
-from pierimpact.questions import QUESTIONS
+from pierimpact.teaching.checker import Question, check
+from pierimpact.teaching.questions import QUESTIONS
 from pierimpact.units import DIMENSIONS
 
 ALL = [

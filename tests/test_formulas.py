@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from pierimpact import formulas
-from pierimpact.formulas import (
+from pierimpact.design import formulas
+from pierimpact.design.formulas import (
     ContactModes,
     Mode,
     Motion,

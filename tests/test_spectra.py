@@ -13,7 +13,7 @@ from pierimpact import (
     load_truck,
     peak_reactions,
 )
-from pierimpact.formulas import amplification
+from pierimpact.design.formulas import amplification
 from pierimpact.reduction import exact_amplification
 from pierimpact.spectra import FREQUENCIES
 

@@ -5,10 +5,11 @@ import json
 import numpy as np
 import pytest
 
-from pierimpact import domain, formulas, peak_reactions, study
+from pierimpact import peak_reactions, study
 from pierimpact.cases import collisions
 from pierimpact.catalogue import load_truck
-from pierimpact.procedure import LEVELS
+from pierimpact.design import domain, formulas
+from pierimpact.design.procedure import LEVELS
 from pierimpact.reduction import exact_amplification
 
 

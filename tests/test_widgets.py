@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from pierimpact import simulate, widgets
 from pierimpact.casefile import case_from, case_values
 from pierimpact.catalogue import read_truck_file
-from pierimpact.chart import Panel, decades, ticks
-from pierimpact.explorer import PAUSE
-from pierimpact.scenario import REFERENCE, Scenario, between
+from pierimpact.teaching.chart import Panel, decades, ticks
+from pierimpact.teaching.explorer import PAUSE
+from pierimpact.teaching.scenario import REFERENCE, Scenario, between
+from pierimpact.teaching.variables import CRUSH, VARIABLES, case_text, truck_text
+from pierimpact.teaching.views import outcome
 from pierimpact.units import printed
-from pierimpact.variables import CRUSH, VARIABLES, case_text, truck_text
-from pierimpact.views import outcome
 
 EXPLORERS = ("collision", "pier", "reduction", "spectra", "design", "sensitivity", "full")
 

@@ -3,8 +3,8 @@
 from pierimpact.averages import largest_average_force
 from pierimpact.calculation import Calculation
 from pierimpact.checks import InputError
-from pierimpact.design import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
-from pierimpact.figures import draw_history
+from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
+from pierimpact.plots.figures import draw_history
 from pierimpact.sheet.blocks import Block, Column, Equation, Figure, Paragraph, Steps, Table
 from pierimpact.sheet.markup import Inline, Tex, in_tex
 from pierimpact.units import printed, rounded, unit_of

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 
 from pierimpact.calculation import Calculation
-from pierimpact.design import DesignReaction
-from pierimpact.equations import DesignStep
+from pierimpact.design.equations import DesignStep
+from pierimpact.design.reaction import DesignReaction
 from pierimpact.sheet.blocks import Block, Column, Paragraph, Steps, Table
 from pierimpact.sheet.markup import Inline, Tex, inline
 from pierimpact.sheet.step_writer import StepWriter, Value

@@ -1,7 +1,7 @@
 """Member forces under the design reaction, their diagrams, and utilisations."""
 
 from pierimpact.calculation import Calculation
-from pierimpact.figures import draw_member_forces
+from pierimpact.plots.figures import draw_member_forces
 from pierimpact.sheet.blocks import Block, Column, Figure, Table
 from pierimpact.sheet.front import verdict
 from pierimpact.sheet.markup import Inline, Tex

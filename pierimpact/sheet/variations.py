@@ -1,7 +1,7 @@
 """The spectra with this pier, and how the reaction changes with what it depends on."""
 
 from pierimpact.calculation import Calculation
-from pierimpact.figures import draw_sensitivity, draw_spectra
+from pierimpact.plots.figures import draw_sensitivity, draw_spectra
 from pierimpact.sensitivity import MASS_CHANGE, SPEED_CHANGE
 from pierimpact.sheet.blocks import Block, Column, Figure, Table
 from pierimpact.sheet.markup import Inline

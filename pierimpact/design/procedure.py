@@ -3,7 +3,7 @@
 The plateau forces push the pier aside; the engine strikes it and leaves it ringing; the cargo
 strikes it while it rings. Two levels, both in closed form: "hand" fits on a page and needs a
 calculator; "refined" keeps the phase of the ringing and lets the pier's own motion correct the
-times and speeds of contact. All is derived here. `pierimpact.equations` has the same equations
+times and speeds of contact. All is derived here. `equations` has the same equations
 in print, under the same names.
 """
 
@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from pierimpact.formulas import (
+from pierimpact.design.formulas import (
     RINGING_BETA,
     RINGING_SHARE,
     Motion,

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.figures import BLUE, DESIGN, GREY, MODEL, VERMILION, _figure, to_svg
-from pierimpact.formulas import amplification
+from pierimpact.design.formulas import amplification
+from pierimpact.plots.figures import BLUE, DESIGN, GREY, MODEL, VERMILION, _figure, to_svg
 from pierimpact.reduction import exact_amplification
 from pierimpact.spectra import Spectrum
 from pierimpact.study import Reactions

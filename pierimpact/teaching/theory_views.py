@@ -8,9 +8,16 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact import views
 from pierimpact.cases import collision
-from pierimpact.chart import (
+from pierimpact.codes import code_forces
+from pierimpact.collision import peak_reactions
+from pierimpact.crush import CrushSpring
+from pierimpact.design.formulas import amplification
+from pierimpact.design.procedure import LEVELS, design_values
+from pierimpact.design.reaction import design_reaction
+from pierimpact.reduction import exact_amplification
+from pierimpact.teaching import views
+from pierimpact.teaching.chart import (
     GREEN,
     GREY,
     INK,
@@ -24,14 +31,7 @@ from pierimpact.chart import (
     text,
     ticks,
 )
-from pierimpact.codes import code_forces
-from pierimpact.collision import peak_reactions
-from pierimpact.crush import CrushSpring
-from pierimpact.design import design_reaction
-from pierimpact.formulas import amplification
-from pierimpact.procedure import LEVELS, design_values
-from pierimpact.reduction import exact_amplification
-from pierimpact.scenario import FREQUENCIES, Scenario, Strike, body_frequency
+from pierimpact.teaching.scenario import FREQUENCIES, Scenario, Strike, body_frequency
 from pierimpact.units import printed
 
 #: How far each parameter is moved in the sensitivity view, as in the parametric study.

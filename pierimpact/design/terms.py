@@ -1,11 +1,11 @@
 r"""What recurs in the equations of the design procedure: motions of the pier, S, slowed bodies.
 
-Formulas are LaTeX with names in angle brackets, as `pierimpact.equations` says.
+Formulas are LaTeX with names in angle brackets, as `pierimpact.design.equations` says.
 """
 
 from typing import NamedTuple
 
-from pierimpact.formulas import DAMPING_EFFECT, HUMP, HUMP_DECLINE, HUMP_END, MASS_EFFECT
+from pierimpact.design.formulas import DAMPING_EFFECT, HUMP, HUMP_DECLINE, HUMP_END, MASS_EFFECT
 
 
 class Equation(NamedTuple):

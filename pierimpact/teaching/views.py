@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from pierimpact.chart import (
+from pierimpact.teaching.chart import (
     BLUE,
     GREEN,
     GREY,
@@ -22,7 +22,7 @@ from pierimpact.chart import (
     figure,
     text,
 )
-from pierimpact.scenario import Strike
+from pierimpact.teaching.scenario import Strike
 from pierimpact.units import printed
 
 #: One colour a body, in every view: the engine, the body with its cargo, and the pier.

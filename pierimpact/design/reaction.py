@@ -1,6 +1,6 @@
 """The design procedure: from truck, pier and speed to engine, cargo and governing reaction.
 
-The arithmetic is in `pierimpact.procedure`, the same in print in `pierimpact.equations`.
+The arithmetic is in `procedure`, the same in print in `equations`.
 """
 
 import math
@@ -11,13 +11,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact import domain
 from pierimpact.cases import collision, collisions
 from pierimpact.checks import one_of, positive
-from pierimpact.equations import DesignStep, given, steps
+from pierimpact.design import domain
+from pierimpact.design.equations import DesignStep, given, steps
+from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.motion import Collision
 from pierimpact.pier import EquivalentPier
-from pierimpact.procedure import LEVELS, design_values
 from pierimpact.truck import Truck
 
 #: A cargo peak below this share of the engine's counts as much smaller. The source paper gives

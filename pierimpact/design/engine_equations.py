@@ -1,11 +1,11 @@
 """The equations of the design procedure up to the ringing that the engine leaves.
 
-Formulas are LaTeX with names in angle brackets, as `pierimpact.equations` says.
+Formulas are LaTeX with names in angle brackets, as `pierimpact.design.equations` says.
 """
 
 import math
 
-from pierimpact.equation_terms import Equation, closing_time, pushed, spectrum, speed_left
+from pierimpact.design.terms import Equation, closing_time, pushed, spectrum, speed_left
 
 
 def plateau(on_pier: bool) -> dict[str, Equation]:

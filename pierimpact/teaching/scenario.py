@@ -14,9 +14,9 @@ from pierimpact.checks import InputError
 from pierimpact.collision import peak_reactions, simulate
 from pierimpact.column import PierColumn, StruckColumn
 from pierimpact.crush import CrushSpring
+from pierimpact.design.procedure import design_values
 from pierimpact.history import CollisionHistory
 from pierimpact.pier import EquivalentPier
-from pierimpact.procedure import design_values
 from pierimpact.sections import CircularSection
 from pierimpact.truck import Truck
 

@@ -1,10 +1,10 @@
 """The equations of the design procedure for the cargo, by hand and refined.
 
-Formulas are LaTeX with names in angle brackets, as `pierimpact.equations` says.
+Formulas are LaTeX with names in angle brackets, as `pierimpact.design.equations` says.
 """
 
-from pierimpact.equation_terms import Equation, before_cargo, closing_time, spectrum, speed_left
-from pierimpact.formulas import RINGING_BETA, RINGING_SHARE
+from pierimpact.design.formulas import RINGING_BETA, RINGING_SHARE
+from pierimpact.design.terms import Equation, before_cargo, closing_time, spectrum, speed_left
 
 
 def cargo_by_hand(values: dict[str, float]) -> dict[str, Equation]:

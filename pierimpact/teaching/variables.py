@@ -3,7 +3,7 @@
 from dataclasses import dataclass, fields
 
 from pierimpact.checks import InputError, number
-from pierimpact.scenario import REFERENCE, Scenario
+from pierimpact.teaching.scenario import REFERENCE, Scenario
 from pierimpact.units import brief, parse
 
 

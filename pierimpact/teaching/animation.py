@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.chart import BLUE, GREY, INK, PALE, VERMILION, canvas, plain, text
 from pierimpact.crush import CrushSpring
-from pierimpact.scenario import Strike, between
+from pierimpact.teaching.chart import BLUE, GREY, INK, PALE, VERMILION, canvas, plain, text
+from pierimpact.teaching.scenario import Strike, between
 from pierimpact.units import printed
 
 Array = NDArray[np.float64]

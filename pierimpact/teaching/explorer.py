@@ -10,11 +10,11 @@ from typing import Any
 import ipywidgets as ipw
 from IPython.display import display
 
-from pierimpact.chart import GREY
 from pierimpact.checks import InputError
-from pierimpact.scenario import Scenario
-from pierimpact.variables import VARIABLES, Variable, case_text, truck_text
-from pierimpact.views import refusal
+from pierimpact.teaching.chart import GREY
+from pierimpact.teaching.scenario import Scenario
+from pierimpact.teaching.variables import VARIABLES, Variable, case_text, truck_text
+from pierimpact.teaching.views import refusal
 
 #: Pause before a redraw, in which the values of a drag that have already arrived are taken in [s].
 PAUSE = 0.01
@@ -153,7 +153,7 @@ class Explorer:
     Parameters
     ----------
     controls : list of str
-        Names of the variables on show, of `pierimpact.variables`.
+        Names of the variables on show, of `pierimpact.teaching.variables`.
     hidden : list of str
         Names of those in a drawer below.
     draw : callable

@@ -3,13 +3,13 @@
 import math
 from functools import cache
 
-from pierimpact.checker import Question, Trap
 from pierimpact.codes import aashto_lrfd, en_1991_1_7_hard_impact
 from pierimpact.collision import peak_reactions, simulate
-from pierimpact.design import design_reaction
-from pierimpact.formulas import approach_speed
+from pierimpact.design.formulas import approach_speed
+from pierimpact.design.reaction import design_reaction
 from pierimpact.history import CollisionHistory
-from pierimpact.scenario import FREQUENCIES, REFERENCE, Scenario, body_frequency
+from pierimpact.teaching.checker import Question, Trap
+from pierimpact.teaching.scenario import FREQUENCIES, REFERENCE, Scenario, body_frequency
 from pierimpact.units import printed
 
 _KMH = 1.0 / 3.6

@@ -1,6 +1,6 @@
 r"""The design procedure as a checker reads it: symbol, equation and unit of every value.
 
-A formula is LaTeX with names in angle brackets, those of `pierimpact.procedure` and of GIVEN:
+A formula is LaTeX with names in angle brackets, those of `procedure` and of GIVEN:
 `\frac{<plateau_push>}{<kp>}`. Put in their symbols and it is the equation, put in the values
 printed before it and it is the calculation. A product of them is written with `<x>`.
 """
@@ -8,8 +8,8 @@ printed before it and it is the calculation. A product of them is written with `
 import re
 from typing import NamedTuple
 
-from pierimpact import cargo_equations, engine_equations
-from pierimpact.equation_terms import Equation
+from pierimpact.design import cargo_equations, engine_equations
+from pierimpact.design.terms import Equation
 from pierimpact.motion import Collision
 
 

@@ -1,0 +1,1 @@
+"""Figures, drawn with matplotlib from results that are already computed."""

@@ -1,0 +1,1 @@
+"""What stands behind the explorers and the exercises of the teaching notebooks."""
