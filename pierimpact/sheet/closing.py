@@ -6,10 +6,11 @@ import numpy as np
 
 import pierimpact
 from pierimpact.calculation import Calculation
-from pierimpact.sheet.blocks import Block, Column, Nomenclature, Table
+from pierimpact.sheet.blocks import Block, Nomenclature
 from pierimpact.sheet.design_steps import symbols_of_procedure
 from pierimpact.sheet.input_tables import STATUS_WORDS, symbols_of_inputs
 from pierimpact.sheet.markup import Code, Inline, Tex
+from pierimpact.sheet.numbered import Column, Table
 from pierimpact.sheet.pier_steps import symbols_of_pier
 from pierimpact.units import rounded
 

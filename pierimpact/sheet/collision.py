@@ -5,8 +5,9 @@ from pierimpact.calculation import Calculation
 from pierimpact.checks import InputError
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
 from pierimpact.plots.figures import draw_history
-from pierimpact.sheet.blocks import Block, Column, Equation, Figure, Paragraph, Steps, Table
+from pierimpact.sheet.blocks import Block, Paragraph
 from pierimpact.sheet.markup import Inline, Tex, in_tex
+from pierimpact.sheet.numbered import Column, Equation, Figure, Steps, Table
 from pierimpact.units import printed, rounded, unit_of
 
 #: Windows of the moving averages that crash tests report [s].

@@ -2,8 +2,9 @@
 
 from pierimpact.calculation import Calculation
 from pierimpact.codes import CodeForce, code_forces
-from pierimpact.sheet.blocks import Block, Column, Notes, Table
+from pierimpact.sheet.blocks import Block, Notes
 from pierimpact.sheet.markup import Inline
+from pierimpact.sheet.numbered import Column, Table
 from pierimpact.units import printed, unit_of
 
 

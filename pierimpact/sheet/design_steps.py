@@ -5,8 +5,9 @@ from collections.abc import Iterator, Sequence
 from pierimpact.calculation import Calculation
 from pierimpact.design.equations import DesignStep
 from pierimpact.design.reaction import DesignReaction
-from pierimpact.sheet.blocks import Block, Column, Paragraph, Steps, Table
+from pierimpact.sheet.blocks import Block, Paragraph
 from pierimpact.sheet.markup import Inline, Tex, inline
+from pierimpact.sheet.numbered import Column, Steps, Table
 from pierimpact.sheet.step_writer import StepWriter, Value
 from pierimpact.units import printed
 

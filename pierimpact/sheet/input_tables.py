@@ -5,8 +5,9 @@ from collections.abc import Iterator
 
 from pierimpact.calculation import Calculation
 from pierimpact.inputs import PHYSICAL_KEYS
-from pierimpact.sheet.blocks import Block, Column, Table
+from pierimpact.sheet.blocks import Block
 from pierimpact.sheet.markup import Inline, Tex
+from pierimpact.sheet.numbered import Column, Table
 from pierimpact.units import printed
 
 # Name, symbol and kind of quantity of the keys of a case file; no kind where the value is a word.

@@ -2,9 +2,10 @@
 
 from pierimpact.calculation import Calculation
 from pierimpact.plots.figures import draw_member_forces
-from pierimpact.sheet.blocks import Block, Column, Figure, Table
+from pierimpact.sheet.blocks import Block
 from pierimpact.sheet.front import verdict
 from pierimpact.sheet.markup import Inline, Tex
+from pierimpact.sheet.numbered import Column, Figure, Table
 from pierimpact.units import printed, rounded
 
 

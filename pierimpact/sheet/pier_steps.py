@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from pierimpact.calculation import Calculation
 from pierimpact.sections import CircularSection
-from pierimpact.sheet.blocks import Column, Equation, Steps, Table
 from pierimpact.sheet.markup import Inline, Tex, in_tex, number_in_tex
+from pierimpact.sheet.numbered import Column, Equation, Steps, Table
 from pierimpact.sheet.step_writer import StepWriter, Value
 from pierimpact.units import printed, unit_of
 

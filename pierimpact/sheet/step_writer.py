@@ -8,8 +8,8 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from pierimpact.sheet.blocks import CONTINUED, Equation
 from pierimpact.sheet.markup import in_tex, inline, number_in_tex, tex_length
+from pierimpact.sheet.numbered import CONTINUED, Equation
 from pierimpact.units import printed
 
 _LONG = 75  # characters on a line

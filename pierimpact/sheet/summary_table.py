@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import pierimpact
 from pierimpact.calculation import Calculation
-from pierimpact.sheet.blocks import Block, Column, Headline, Notice, Paragraph, Table, TitleBlock
+from pierimpact.sheet.blocks import Block, Headline, Notice, Paragraph, TitleBlock
 from pierimpact.sheet.input_tables import STATUS_WORDS
 from pierimpact.sheet.markup import Code, Inline, Link, Piece, Tex
+from pierimpact.sheet.numbered import Column, Table
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 
 NONE = "none"  # instead of a peak that is not there

@@ -3,8 +3,9 @@
 from pierimpact.calculation import Calculation
 from pierimpact.plots.figures import draw_sensitivity, draw_spectra
 from pierimpact.sensitivity import MASS_CHANGE, SPEED_CHANGE
-from pierimpact.sheet.blocks import Block, Column, Figure, Table
+from pierimpact.sheet.blocks import Block
 from pierimpact.sheet.markup import Inline
+from pierimpact.sheet.numbered import Column, Figure, Table
 from pierimpact.units import printed, rounded, unit_of
 
 
