@@ -351,7 +351,7 @@ def test_one_case_has_no_summary(tmp_path, monkeypatch):
     report = Report(Path("a.ipynb"), Path("a.html"), Path("a.pdf"), [], read_case(case))
     monkeypatch.setattr(batch_module, "write_report", lambda case, output, on_stage: report)
     result = write_reports([case], tmp_path / "out", progress=False)
-    assert result == ([report], [], None)
+    assert result == ([report], [], None, "")
 
 
 def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
@@ -367,7 +367,9 @@ def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("pierimpact.sheet.summary_table.summary_csv", fail)
     output = tmp_path / "out"
     assert cli.main(["report", *map(str, cases), "--output", str(output)]) == 1
-    assert capsys.readouterr().err == "pierimpact: the summary: ValueError: no CSV\n"
+    lines = capsys.readouterr()
+    assert lines.out.splitlines() == ["x.ipynb", "x.html", "x.pdf"] * 2
+    assert lines.err == "pierimpact: the summary: ValueError: no CSV\n"
     assert list(output.iterdir()) == []
 
 

@@ -370,6 +370,37 @@ def test_a_failing_notebook_is_kept_and_named(si, tmp_path, monkeypatch):
     assert nbformat.read(kept, 4).cells[-1].outputs[0].ename == "ValueError"
 
 
+@pytest.mark.parametrize("deaths", [1, 2])
+def test_a_kernel_that_does_not_start_is_started_once_more(si, tmp_path, monkeypatch, deaths):
+    execute, calls = papermill.execute_notebook, []
+
+    def dies(*arguments, **options):
+        calls.append(arguments)
+        if len(calls) <= deaths:
+            raise RuntimeError("Kernel died before replying to kernel_info")
+        return execute(*arguments, **options)
+
+    monkeypatch.setattr(papermill, "execute_notebook", dies)
+    if deaths == 1:
+        write_report(si[0], tmp_path)
+    else:
+        with pytest.raises(ReportError, match=r"^tti-column\.yaml: RuntimeError: Kernel died"):
+            write_report(si[0], tmp_path)
+    assert len(calls) == 2
+    assert (tmp_path / "tti-column.pdf").exists() == (deaths == 1)
+
+
+def test_a_kernel_that_dies_at_work_is_not_started_again(si, tmp_path, monkeypatch):
+    notebook = nbformat.read(report_notebook(), 4)
+    notebook.cells[1].source = "import os; os._exit(1)"
+    deadly = tmp_path / "deadly.ipynb"
+    nbformat.write(notebook, deadly)
+    monkeypatch.setattr(report_module, "report_notebook", lambda: deadly)
+    with pytest.raises(ReportError, match="Kernel died"):
+        write_report(si[0], tmp_path / "out")
+    assert not (tmp_path / "out" / "tti-column.pdf").exists()
+
+
 def test_a_failing_conversion_leaves_no_half_report(si, tmp_path, monkeypatch):
     templates = tmp_path / "templates"
     shutil.copytree(Path(__file__).parent.parent / "templates", templates)
