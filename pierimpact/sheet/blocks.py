@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pierimpact.sheet.markup import Inline, Tex, to_html, to_typst, typst_string
+from pierimpact.sheet.markup import Inline, Piece, Ref, Tex, to_html, to_typst, typst_string
 from pierimpact.units import Printed
 
 #: MIME type of what running headers, document properties and paper size need to know.
@@ -175,30 +175,38 @@ class Notes(Block):
 
 @dataclass(frozen=True)
 class Nomenclature(Block):
-    """Symbols and what they stand for.
+    """Symbols, what they stand for and where they come from.
 
     Parameters
     ----------
-    entries : sequence of (Tex, str or Tex or tuple)
-        Symbol and meaning.
+    entries : sequence of (Tex, str or Tex or tuple, Ref)
+        Symbol, meaning and place.
     """
 
-    entries: Sequence[tuple[Tex, Inline]]
+    entries: Sequence[tuple[Tex, Inline, Ref]]
 
     def to_html(self) -> str:
         """Return the block as HTML."""
         entries = "".join(
-            f"<div><dt>{to_html(symbol)}</dt><dd>{to_html(meaning)}</dd></div>"
-            for symbol, meaning in self.entries
+            f"<div><dt>{to_html(symbol)}</dt><dd>{to_html((*meaning, ', ', place))}</dd></div>"
+            for symbol, meaning, place in self._flat()
         )
         return f'<dl class="nomenclature">{entries}</dl>'
 
     def to_typst(self) -> str:
         """Return the block as Typst markup."""
         entries = "".join(
-            f"([{to_typst(symbol)}], [{to_typst(meaning)}])," for symbol, meaning in self.entries
+            f"([{to_typst(symbol)}], [{to_typst((*meaning, ', ', place))}]),"
+            for symbol, meaning, place in self._flat()
         )
         return f"#nomenclature(({entries}))"
+
+    def _flat(self) -> list[tuple[Tex, tuple[Piece, ...], Ref]]:
+        """Return the entries, every meaning a run of pieces."""
+        return [
+            (symbol, meaning if isinstance(meaning, tuple) else (meaning,), place)
+            for symbol, meaning, place in self.entries
+        ]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -50,6 +50,8 @@ class Table(Block):
         Its rows; the first cell of a row is its heading.
     strong : sequence of int, optional
         Rows that matter most.
+    centred : bool, optional
+        Whether cells are centred between the rows above and below, as tall formulas want it.
     """
 
     label: str
@@ -57,6 +59,7 @@ class Table(Block):
     columns: Sequence[Column]
     rows: Sequence[Sequence[Inline]]
     strong: Sequence[int] = ()
+    centred: bool = False
 
     def _aligned(self) -> list[list[Inline]]:
         """Return the rows, with the numbers of decimal columns padded to equal decimals."""
@@ -83,9 +86,11 @@ class Table(Block):
             )
             strong = ' class="strong"' if index in self.strong else ""
             body += f'<tr{strong}><th scope="row"{classes[0]}>{first}</th>{cells}</tr>'
-        width = "" if any(column.wide for column in self.columns) else ' class="narrow"'
+        kinds = [] if any(column.wide for column in self.columns) else ["narrow"]
+        kinds += ["centred"] * self.centred
+        kind = f' class="{" ".join(kinds)}"' if kinds else ""
         return (
-            f'<div class="table"><table{width} id="{self.label}"><caption>{_numbered("Table")}'
+            f'<div class="table"><table{kind} id="{self.label}"><caption>{_numbered("Table")}'
             f"{to_html(self.caption)}</caption><thead><tr>{head}</tr></thead>"
             f"<tbody>{body}</tbody></table></div>"
         )
@@ -94,8 +99,10 @@ class Table(Block):
         """Return the block as Typst markup."""
         widths = ", ".join("1fr" if column.wide else "auto" for column in self.columns)
         aligns = ", ".join(
-            "right" if column.align == "decimal" else "left" for column in self.columns
+            ("right" if column.align == "decimal" else "left") + " + horizon" * self.centred
+            for column in self.columns
         )
+        inset = "inset: (x: 5pt, y: 5pt), " * self.centred
         head = "".join(f"[{to_typst(column.heading)}]," for column in self.columns)
         cells = "".join(
             f"strong[{to_typst(cell)}]," if index in self.strong else f"[{to_typst(cell)}],"
@@ -104,7 +111,7 @@ class Table(Block):
         )
         return (
             f"#figure(kind: table, caption: [{to_typst(self.caption)}], "
-            f"table(columns: ({widths},), align: ({aligns},), table.header({head}), {cells}"
+            f"table({inset}columns: ({widths},), align: ({aligns},), table.header({head}), {cells}"
             f")) <{self.label}>"
         )
 

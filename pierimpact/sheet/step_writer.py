@@ -66,6 +66,8 @@ class StepWriter:
         lines = [*values, f"{last} = {shown}"] if fits else [*values, last, shown]
         if formula_in_symbols == formula:  # nothing to put in
             lines = [formula]
+        elif re.fullmatch(r"<\w+>", formula):  # the value put in is the result
+            lines = [f"{formula_in_symbols} = {shown}"]
         elif re.sub(r"\\,| ", "", formula_in_symbols) != symbol.replace(" ", ""):
             lines = [*_broken(formula_in_symbols), *lines]
         label = f"{self.prefix}{result}"
