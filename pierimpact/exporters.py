@@ -181,7 +181,7 @@ def _numbered(page: str) -> str:
         page,
     )
     return re.sub(
-        r'(<a href="#([^"]+)">)(.*?)</a>',
+        r'(<a\s+href="#([^"]+)">)(.*?)</a>',
         lambda link: (
             f"{link[1]}{link[3]}&nbsp;{numbers[link[2]]}</a>" if link[2] in numbers else link[0]
         ),

@@ -295,6 +295,21 @@ def test_units_of_the_summary(tmp_path, systems):
     assert kinds == {"force": 4, "mass": 2, "speed": 2, "length": 2}
 
 
+@pytest.mark.parametrize(("units", "words"), [("SI", "117 km/h"), ("US", "72.7 mph")])
+def test_the_summary_says_what_is_outside_the_study(tmp_path, units, words):
+    case = write_case(tmp_path / "fast.yaml", speed="117 km/h", units=units)
+    inside = write_case(tmp_path / "inside.yaml", units=units)
+    rows = [Row(path.stem, calculate(read_case(path)), []) for path in (case, inside)]
+    page = "".join(block.to_html() for block in summary_blocks(rows))
+    remarks = [row["remarks"] for row in csv.DictReader(io.StringIO(summary_csv(rows), newline=""))]
+    assert (
+        re.search(r"speed [\d.]+ (km/h|mph) outside the studied", remarks[0])[1] == words.split()[1]
+    )
+    assert words in remarks[0]
+    assert remarks[0] in html.unescape(page)
+    assert "outside" not in remarks[1]
+
+
 def test_a_project_of_their_own_is_a_column(tmp_path):
     rows = []
     for name, project in (("a", "One"), ("b", "Two"), ("c", "Two")):

@@ -286,6 +286,26 @@ def test_numbers_of_equations_tables_and_figures(made):
     assert f"({len(equations) + 1})" not in sheet
 
 
+def test_every_place_that_is_named_has_its_number(made):
+    text = made[1].html.read_text("utf-8")
+    anchors = set(re.findall(r' id="([^"]+)"', text))
+    links = re.findall(r'<a\s+href="#([^"]+)">(.*?)</a>', text)
+    assert {anchor for anchor, _ in links} <= anchors
+    named = [words for anchor, words in links if anchor.startswith(("tab-", "fig-", "eq-"))]
+    assert len(named) > 80
+    for words in named:
+        assert re.fullmatch(r"(Table|Figure)&nbsp;\d+|Eq\.&nbsp;\(\d+\)", words)
+    sheet = " ".join(pdf_text(made[1].pdf))
+    assert not re.search(r"(those of|values of|and) Table[^\s\d]", sheet)
+
+
+def test_us_reports_print_no_metric_unit(us):
+    text = Text(us[1].html.read_text("utf-8")).text
+    own = text.replace("Generic 8 t single-unit truck", "")  # as the truck's file describes it
+    metric = r"(?<![\w.])\d[\d.\u202f]*\s(kN|MN|GPa|m|mm|kg|km/h|t|kN·m|MN/m|kg/m³)(?![\w/·-])"
+    assert [match[0] for match in re.finditer(metric, own)] == []
+
+
 def test_figures_are_vectors_with_words_for_them(made):
     page = Text(made[1].html.read_text("utf-8"))
     images = [attributes for tag, attributes in page.tags if tag == "img"]
