@@ -237,7 +237,15 @@ class SheetPDFExporter(_SheetExporter):
         source, resources = super().from_notebook_node(nb, resources, **kw)
         resources["output_extension"] = ".pdf"
         pdf, missing = compile_typst(source, resources["sheet"]["date"])
-        resources["warnings"] = [f"the PDF lacks a character: {missing}"] if missing else []
+        resources["warnings"] = []
+        if missing:
+            shown = ", ".join(
+                f"{c} (U+{ord(c):04X})" if c.isprintable() else f"U+{ord(c):04X}" for c in missing
+            )
+            resources["warnings"].append(
+                f"no font here has {shown}: it prints as its number in the PDF; install a font for "
+                "that script, such as one of the Noto fonts"
+            )
         return pdf, resources
 
     def _formulas(self, text: str) -> list[str]:
@@ -265,7 +273,8 @@ def compile_typst(source: str, date: str) -> tuple[bytes, str]:
     """Return the PDF of a Typst document, the same bytes for the same source and date.
 
     Where the text is in a script that the fonts at hand lack, such as Chinese, the fonts of the
-    system are searched: whoever writes in it has one.
+    system are searched: whoever writes in it has one. A character that no font has prints as its
+    number, such as [U+6865]: never as an empty box, and the PDF still keeps its standards.
 
     Parameters
     ----------
@@ -279,22 +288,43 @@ def compile_typst(source: str, date: str) -> tuple[bytes, str]:
     pdf : bytes
         The PDF.
     missing : str
-        A text that no font can show; empty if there is none.
+        The characters that no font has, each once.
     """
-    at_hand = {"font_paths": [_font_folder()], "ignore_system_fonts": True}
-    system = {"sys_inputs": {"fallback": "yes"}}
-    strict = {"pdf_standards": ["a-2a", "ua-1"]}
-    timestamp = datetime.datetime.fromisoformat(f"{date}T00:00:00+00:00")
     compiled: Callable[..., bytes] = typst.compile
+    options = {
+        "timestamp": datetime.datetime.fromisoformat(f"{date}T00:00:00+00:00"),
+        "pdf_standards": ["a-2a", "ua-1"],
+        "font_paths": [_font_folder()],
+    }
+    try:
+        return compiled(source.encode(), ignore_system_fonts=True, **options), ""
+    except typst.TypstError as error:
+        if not _undisplayed(error):
+            raise
+    options["sys_inputs"] = {"fallback": "yes"}
     missing = ""
-    for options in (at_hand | strict, system | strict, system):
+    while True:
         try:
-            return compiled(source.encode(), timestamp=timestamp, **options), missing
+            return compiled(source.encode(), **options), missing
         except typst.TypstError as error:
-            if "could not be displayed" not in error.message:
+            found = _undisplayed(error)
+            if not set(found) - set(missing):
                 raise
-            missing = error.message.partition("the text ")[2]
-    raise AssertionError("without a PDF standard, a missing character is no error")
+            missing += "".join(sorted(set(found) - set(missing)))
+            source = "".join(f"[U+{ord(c):04X}]" if c in found else c for c in source)
+
+
+def _undisplayed(error: typst.TypstError) -> str:
+    """Return the characters that an error says no font can display, or no PDF/A may contain."""
+    texts = re.findall(
+        r'the text `"(.*?)"` could not be displayed|contains the codepoint `"(.*?)"`',
+        error.diagnostic,
+    )
+    return re.sub(
+        r"\\u\{(\w+)\}",
+        lambda number: chr(int(number[1], 16)),
+        "".join(displayed or contained for displayed, contained in texts),
+    )
 
 
 def _font_folder() -> Path:

@@ -2,6 +2,7 @@
 
 import base64
 import html
+import io
 import json
 import re
 import shutil
@@ -19,6 +20,7 @@ from pierimpact import report as report_module
 from pierimpact.calculation import calculate
 from pierimpact.casefile import read_case
 from pierimpact.checks import InputError
+from pierimpact.exporters import SheetPDFExporter, compile_typst
 from pierimpact.report import ReportError, report_notebook, write_report
 from pierimpact.units import printed
 
@@ -257,6 +259,26 @@ def test_text_from_users_prints_as_typed(us):
         assert squeezed(text) in squeezed(page.text)
         assert squeezed(text) in sheet
     assert squeezed(NASTY) in sheet
+
+
+NOWHERE = "\U0010fffd"  # for private use: no font has it
+
+
+def test_what_no_font_has_prints_as_its_number():
+    source = f'#set document(title: "x")\n#set text(fallback: true)\n#"גשר {NOWHERE} & {NOWHERE}"'
+    pdf, missing = compile_typst(source, "2026-01-31")
+    assert missing == NOWHERE
+    reader = pypdf.PdfReader(io.BytesIO(pdf))
+    assert reader.pages[0].extract_text().count("[U+10FFFD]") == 2
+    assert re.search(r"pdfuaid:part>1<", reader.xmp_metadata.stream.get_data().decode())
+    assert compile_typst('#set document(title: "x")\n#"Łø Мост"', "2026-01-31")[1] == ""
+
+
+def test_what_no_font_has_is_told(us):
+    text = us[1].notebook.read_text("utf-8").replace("Ł & ø", NOWHERE)
+    _, resources = SheetPDFExporter().from_notebook_node(nbformat.reads(text, 4))
+    (warning,) = resources["warnings"]
+    assert warning.startswith("no font here has U+10FFFD: it prints as its number in the PDF")
 
 
 def test_every_page_says_whose_it_is_and_which(made):

@@ -1,0 +1,85 @@
+"""Time of a report beyond the kernel's own start: python benchmarks/report.py.
+
+Runs `pierimpact report` on the example, in turn with the start of a kernel that executes nothing,
+alone and by way of papermill. Prints medians, least and most of each, of the differences and of the
+report's parts.
+"""
+
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import nbformat
+from nbformat import v4
+
+ROUNDS = 9
+EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
+EMPTY = """
+import papermill
+papermill.execute_notebook("empty.ipynb", "o.ipynb", kernel_name="python3", progress_bar=False)
+"""
+# The time of a kernel alone, without what is imported to start it.
+KERNEL = """
+import time
+from jupyter_client.manager import start_new_kernel
+start = time.perf_counter()
+manager, client = start_new_kernel(kernel_name="python3")
+client.execute_interactive("")
+manager.shutdown_kernel(now=True)
+print(time.perf_counter() - start)
+"""
+# In one process and one after the other; in a report some of them overlap.
+PARTS = """
+import sys, time
+from pathlib import Path
+times = [time.perf_counter()]
+def lap():
+    times.append(time.perf_counter())
+from pierimpact import exporters, report; from pierimpact.calculation import calculate; lap()
+case = report.read_case(sys.argv[1]); calculate(case); lap()
+report.import_libraries(); lap()
+path = Path(sys.argv[1])
+notebook = report._execute(report._parameters(path), path.parent, Path("x.ipynb"), lambda: None)
+lap()
+exporters.SheetHTMLExporter().from_notebook_node(notebook); lap()
+exporters.SheetPDFExporter().from_notebook_node(notebook); lap()
+print(*(after - before for before, after in zip(times, times[1:])))
+"""
+NAMES = ("imports", "calculation", "papermill's import", "kernel and cells", "HTML", "PDF")
+
+
+def seconds(folder, *command):
+    """Return the wall time of a command, and what it printed."""
+    start = time.perf_counter()
+    done = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
+    return time.perf_counter() - start, done.stdout
+
+
+with tempfile.TemporaryDirectory() as folder:
+    nbformat.write(v4.new_notebook(cells=[v4.new_code_cell("")]), Path(folder) / "empty.ipynb")
+    whole, kernel, route, parts = [], [], [], []
+    for _ in range(ROUNDS + 1):  # the first is not counted
+        report = seconds(folder, sys.executable, "-m", "pierimpact", "report", EXAMPLE)[0]
+        empty = seconds(folder, sys.executable, "-c", EMPTY)[0]
+        shares = seconds(folder, sys.executable, "-c", PARTS, EXAMPLE)[1]
+        whole.append(report)
+        route.append(empty)
+        kernel.append(float(seconds(folder, sys.executable, "-c", KERNEL)[1]))
+        parts.append([float(share) for share in shares.split()])
+whole, kernel, route, parts = (values[1:] for values in (whole, kernel, route, parts))
+beyond_kernel, beyond_route = (
+    [report - empty for report, empty in zip(whole, times, strict=True)]
+    for times in (kernel, route)
+)
+for name, values in (
+    ("report", whole),
+    ("kernel alone", kernel),
+    ("report beyond it", beyond_kernel),
+    ("empty notebook by papermill", route),
+    ("report beyond it", beyond_route),
+    *zip((f"  {name}" for name in NAMES), zip(*parts, strict=True), strict=True),
+):
+    print(f"{name:28} {statistics.median(values):5.2f} s ({min(values):.2f} to {max(values):.2f})")
