@@ -44,7 +44,7 @@ def draw_history(history: CollisionHistory, system: str) -> str:
     system : {"SI", "US"}
         Units to print in.
     """
-    with _figure(6.5, 2.8, left=0.105, right=0.99, bottom=0.16, top=0.97) as figure:
+    with sheet_figure(6.5, 2.8, left=0.105, right=0.99, bottom=0.16, top=0.97) as figure:
         axes = figure.add_subplot()
         time = history.time / unit_size("time", system)
         force = history.contact_force / unit_size("force", system)
@@ -94,7 +94,9 @@ def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
         "Cargo": (spectrum.cargo, spectrum.design_cargo),
     }
     here = int(np.argmin(np.abs(spectrum.values - frequency)))
-    with _figure(6.5, 2.7, left=0.105, right=0.985, bottom=0.17, top=0.9, wspace=0.1) as figure:
+    with sheet_figure(
+        6.5, 2.7, left=0.105, right=0.985, bottom=0.17, top=0.9, wspace=0.1
+    ) as figure:
         panels = figure.subplots(1, 2, sharey=True)
         for axes, (name, (model, design)) in zip(panels, curves.items(), strict=True):
             axes.axvline(frequency, color=GREY, linewidth=0.8)
@@ -124,7 +126,9 @@ def draw_member_forces(forces: MemberForces, system: str) -> str:
     """
     z = forces.z / unit_size("length", system)
     impact = z[1]
-    with _figure(6.5, 3.1, left=0.105, right=0.985, bottom=0.15, top=0.9, wspace=0.12) as figure:
+    with sheet_figure(
+        6.5, 2.7, left=0.105, right=0.985, bottom=0.09, top=0.91, wspace=0.12
+    ) as figure:
         column, *diagrams = figure.subplots(1, 3, sharey=True, width_ratios=[0.7, 1.0, 1.0])
         column.plot([0.0, 0.0], [z[0], z[-1]], color="black", linewidth=3.0)
         column.annotate(
@@ -198,8 +202,8 @@ def draw_sensitivity(
         ("impact_height", "length", "Impact height"),
         ("frequency", "frequency", "Pier frequency"),
     )
-    with _figure(
-        6.5, 4.6, left=0.105, right=0.985, bottom=0.1, top=0.97, hspace=0.35, wspace=0.1
+    with sheet_figure(
+        6.5, 3.9, left=0.105, right=0.985, bottom=0.115, top=0.985, hspace=0.38, wspace=0.1
     ) as figure:
         grid = figure.subplots(2, 2, sharey=True)
         for axes, (name, quantity, words) in zip(grid.flat, panels, strict=True):
@@ -211,6 +215,8 @@ def draw_sensitivity(
             axes.set_xlim(float(variation.values[0]) / size, float(variation.values[-1]) / size)
             if name == "frequency":
                 _logarithmic(axes)
+            else:  # the last number would run into the first of the panel beside it
+                axes.locator_params(axis="x", prune="upper")
             axes.grid(axis="y", color="#e2e6e9", linewidth=0.6)
         grid[0, 0].set_ylim(bottom=0.0)
         for axes in grid[:, 0]:
@@ -244,7 +250,7 @@ def _name_both(axes: Any) -> None:
 
 
 @contextmanager
-def _figure(width: float, height: float, **margins: float) -> Iterator[Figure]:
+def sheet_figure(width: float, height: float, **margins: float) -> Iterator[Figure]:
     """Give a figure of a size in inches, in the style of the sheet."""
     with rc_context(_STYLE):
         figure = Figure(figsize=(width, height))

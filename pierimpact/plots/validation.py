@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.design.formulas import amplification
-from pierimpact.plots.figures import BLUE, DESIGN, GREY, MODEL, VERMILION, _figure, to_svg
+from pierimpact.plots.figures import BLUE, DESIGN, GREY, MODEL, VERMILION, sheet_figure, to_svg
 from pierimpact.reduction import exact_amplification
 from pierimpact.spectra import Spectrum
 from pierimpact.study import Reactions
@@ -43,7 +43,7 @@ def draw_amplification(mass_ratios: Sequence[float], restitution: float, damping
     restitution, damping : float
         e and ζ of all of them [-].
     """
-    with _figure(6.5, 3.0, left=0.085, right=0.985, bottom=0.15, top=0.97) as figure:
+    with sheet_figure(6.5, 3.0, left=0.085, right=0.985, bottom=0.15, top=0.97) as figure:
         axes = figure.add_subplot()
         for mu in mass_ratios:
             exact = exact_amplification(_RATIOS, mu, restitution, damping)
@@ -92,7 +92,9 @@ def draw_routes(engine: Spectrum, cargo: Spectrum, system: str) -> str:
         Units to print in.
     """
     size = unit_size("force", system)
-    with _figure(6.5, 2.9, left=0.105, right=0.985, bottom=0.16, top=0.91, wspace=0.1) as figure:
+    with sheet_figure(
+        6.5, 2.9, left=0.105, right=0.985, bottom=0.16, top=0.91, wspace=0.1
+    ) as figure:
         panels = figure.subplots(1, 2, sharey=True)
         for axes, name, spectrum in zip(panels, ("Engine", "Cargo"), (engine, cargo), strict=True):
             axes.plot(
@@ -147,7 +149,9 @@ def draw_scatter(frequency: Array, exact: Reactions, predicted: Reactions, syste
     """
     size = unit_size("force", system)
     ends = 0.5e6 / size, 20e6 / size
-    with _figure(6.5, 2.75, left=0.1, right=0.99, bottom=0.26, top=0.91, wspace=0.08) as figure:
+    with sheet_figure(
+        6.5, 2.75, left=0.1, right=0.99, bottom=0.26, top=0.91, wspace=0.08
+    ) as figure:
         panels = figure.subplots(1, 3, sharey=True)
         for axes, name in zip(panels, Reactions._fields, strict=True):
             for share, line in ((1.0, "-"), (0.9, ":"), (1.1, ":")):
@@ -193,7 +197,7 @@ def draw_ratios(frequency: Array, exact: Reactions, predicted: Reactions) -> str
 
     Engine, cargo and governing apart; arguments as in `draw_scatter`.
     """
-    with _figure(6.5, 2.4, left=0.1, right=0.99, bottom=0.19, top=0.91, wspace=0.08) as figure:
+    with sheet_figure(6.5, 2.4, left=0.1, right=0.99, bottom=0.19, top=0.91, wspace=0.08) as figure:
         panels = figure.subplots(1, 3, sharey=True)
         for axes, name in zip(panels, Reactions._fields, strict=True):
             axes.axhline(1.0, color="black", linewidth=0.6)
