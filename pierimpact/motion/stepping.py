@@ -6,13 +6,14 @@ friction past its regime ends at the instant of the change, found on the series 
 """
 
 import math
-from collections.abc import Callable
-from typing import Any, TypeAlias, TypeVar
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.motion.coasting import coast
+from pierimpact.motion.groups import CHUNK, join, take
 from pierimpact.motion.regimes import (
     BACKWARD,
     ELASTIC,
@@ -56,20 +57,21 @@ HOLD = 1e-4  # weighs the holding force, whose round-off is larger by the stiffn
 STEPS = 100_000  # no collision of the studied domain takes a hundredth of these
 
 Motion: TypeAlias = tuple[Real, Real, Real]  # value, rate, second rate
+Motions: TypeAlias = tuple[Motion, Motion, Motion]  # of δ1, δ2 and x_p
 Series: TypeAlias = tuple[Terms, Terms, Terms]  # of δ1, δ2 and x_p
 
 
-def motions(law: Law, at: Position) -> tuple[Motion, Motion, Motion]:
+def motions(law: Law, at: Position) -> Motions:
     """Return δ1, δ2 and x_p, each with its first two rates."""
     a1, a2, ap = accelerations(law, at)
     return (at.d1, at.u1, a1), (at.d2, at.u2, a2), (at.xp, at.vp, ap)
 
 
-def expand(law: Law, at: Position, h: Real, count: int, ops: Ops) -> Series:
+def expand(law: Law, moving: Motions, h: Real, count: int, ops: Ops) -> Series:
     """Return the first `count` terms of δ1, δ2 and x_p over a step `h`."""
     d1, d2, xp = ops.blank(h, count)
     square = h * h
-    for terms, (value, rate, second) in zip((d1, d2, xp), motions(law, at), strict=True):
+    for terms, (value, rate, second) in zip((d1, d2, xp), moving, strict=True):
         terms[0], terms[1], terms[2] = value, rate * h, second * square
     # The equations of motion once more, with the step as the unit of time.
     g1, g2 = law.w1 * law.s1 * square, law.w2 * law.s2 * square
@@ -146,18 +148,16 @@ def watch(case: Collision, state: State, law: Law, ops: Ops) -> list[Watched]:
     return watched
 
 
-def trial_step(case: Collision, state: State, law: Law, watched: list[Watched], ops: Ops) -> Real:
+def trial_step(longest: Real, moving: Motions, watched: list[Watched], ops: Ops) -> Real:
     """Return the longest step, or four times that to where the first watched rate leads."""
-    where = ops.where
-    at = motions(law, state.at)
-    h = longest_step(law, ops)
+    where, h = ops.where, longest
     for _, order, parts, level in watched:
         if order == 2:
             continue
         value, rate = level, 0.0
         for weight, which in parts:
-            value = value + weight * at[which][order]
-            rate = rate + weight * at[which][order + 1]
+            value = value + weight * moving[which][order]
+            rate = rate + weight * moving[which][order + 1]
         nears = (value < 0.0) & (rate * h > -4.0 * value)
         h = where(nears, -4.0 * value / where(nears, rate, 1.0), h)
     return h
@@ -173,10 +173,11 @@ def may_rise(
     """
     where = ops.where
     flagged = []
-    for event, order, parts, level in watched:
-        most = level
+    for quantity in watched:
+        event, order, parts, most = quantity
         if order:
             parts = tuple([(weight / h**order, which) for weight, which in parts])
+            quantity = Watched(event, order, parts, quantity.level)
             for weight, which in parts:
                 most = most + weight * series[which][order] + abs(weight) * spread[which]
         else:
@@ -184,17 +185,18 @@ def may_rise(
                 ahead = weight * series[which][1]
                 most = most + weight * series[which][0] + where(ahead > 0.0, ahead, 0.0)
                 most = most + 0.5 * abs(weight) * spread[which]
-        flagged.append((Watched(event, order, parts, level), most > 0.0))
+        flagged.append((quantity, most > 0.0))
     return flagged
 
 
 def move(case: Collision, state: State, law: Law, ops: Ops) -> tuple[State, Real]:
     """Return the state after one step, at most up to the first change, and the step's length."""
     where = ops.where
-    watched = watch(case, state, law, ops)
-    h = trial_step(case, state, law, watched, ops)
-    count = terms_needed(ops.largest(h / longest_step(law, ops)))
-    series = expand(law, state.at, h, count, ops)
+    watched, moving = watch(case, state, law, ops), motions(law, state.at)
+    longest = longest_step(law, ops)
+    h = trial_step(longest, moving, watched, ops)
+    count = terms_needed(ops.largest(h / longest))
+    series = expand(law, moving, h, count, ops)
     spread = [ops.fixed(END, ops.sizes(terms[2:])) for terms in series]
     flagged = may_rise(watched, series, spread, h, ops)
 
@@ -309,15 +311,36 @@ OUTCOMES = (
 )
 
 
-def follow_all(case: Collision, state: State | None = None) -> NDArray[np.float64]:
+class Running(NamedTuple):
+    """Collisions under way, side by side."""
+
+    case: Collision
+    state: State
+    place: NDArray[np.int_]  # among the outcomes
+    steps: NDArray[np.int_]  # taken so far
+
+
+def follow_all(
+    parts: Iterable[Collision],
+    size: int,
+    begin: Callable[[Collision, Ops], State] = start,
+    progress: Callable[[int], object] = lambda count: None,
+) -> NDArray[np.float64]:
     """Propagate collisions side by side until nothing more can happen in any.
+
+    Those that are done make room for the next part, so that the arrays neither grow with the
+    number of collisions nor run almost empty.
 
     Parameters
     ----------
-    case : Collision
-        Arrays of shape (n,).
-    state : State, optional
-        Where to start from, instead of first touch; arrays of shape (n,).
+    parts : iterable of Collision
+        Some collisions at a time; arrays of shape (m,).
+    size : int
+        Number n of the collisions in all parts.
+    begin : callable, optional
+        From collisions to the states they start from; first touch unless another is given.
+    progress : callable, optional
+        Called with the number of collisions done since the last call.
 
     Returns
     -------
@@ -329,30 +352,37 @@ def follow_all(case: Collision, state: State | None = None) -> NDArray[np.float6
     RuntimeError
         When a collision does not come to an end.
     """
-    state = start(case, ARRAYS) if state is None else state
-    outcomes = np.empty((len(OUTCOMES), len(case.speed)))
-    left = np.arange(len(case.speed))
-    done = np.zeros(len(left), dtype=bool)
-    for _ in range(STEPS):
-        law = linearise(case, state, ARRAYS)
-        state, _h = coast(case, state, law, ARRAYS)
-        state, _h = move(case, state, law, ARRAYS)
-        done |= finished(case, state, ARRAYS)
+    outcomes = np.empty((len(OUTCOMES), size))
+    waiting = _started(parts, begin)
+    running = next(waiting, None)
+    while running:
+        case, state, place, steps = running
+        done = np.zeros(len(place), dtype=bool)
         # Taking cases out costs about as much as a step: wait until a fifth of them is done.
-        if 5 * np.count_nonzero(done) > len(done) or done.all():
-            outcomes[:, left[done]] = [getattr(state, name)[done] for name in OUTCOMES]
-            going = ~done
-            if not going.any():
-                return outcomes
-            left, done = left[going], done[going]
-            case, state = _take(case, going), _take(state, going)
-    raise RuntimeError("a collision did not come to an end")
+        while 5 * np.count_nonzero(done) <= len(done) and not done.all():
+            law = linearise(case, state, ARRAYS)
+            state, _h = coast(case, state, law, ARRAYS)
+            state, _h = move(case, state, law, ARRAYS)
+            done |= finished(case, state, ARRAYS)
+            steps = steps + 1
+            if steps.max() > STEPS:
+                raise RuntimeError("a collision did not come to an end")
+        outcomes[:, place[done]] = [getattr(state, name)[done] for name in OUTCOMES]
+        progress(int(np.count_nonzero(done)))
+        running = take(Running(case, state, place, steps), ~done)
+        if 2 * len(running.place) < CHUNK:
+            more = next(waiting, None)
+            running = join(running, more) if more else running
+        if not len(running.place):
+            return outcomes
+    return outcomes
 
 
-T = TypeVar("T", bound=tuple[Any, ...])
-
-
-def _take(group: T, mask: NDArray[np.bool_]) -> T:
-    return type(group)(
-        *(_take(item, mask) if isinstance(item, tuple) else item[mask] for item in group)
-    )
+def _started(
+    parts: Iterable[Collision], begin: Callable[[Collision, Ops], State]
+) -> Iterator[Running]:
+    first = 0
+    for case in parts:
+        place = np.arange(first, first + len(case.speed))
+        first += len(place)
+        yield Running(case, begin(case, ARRAYS), place, 0 * place)
