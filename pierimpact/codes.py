@@ -45,10 +45,10 @@ class CodeForce:
     ----------
     code : str
         Name of the code, and the case it is for.
-    clause : str
-        Clause, table or annex.
     along : Sourced
         Force along the direction of travel [N].
+    clause : str, optional
+        Clause, table or annex; empty where it is not known here.
     across : Sourced or None, optional
         Force across it [N].
     height : Sourced or None, optional
@@ -63,8 +63,8 @@ class CodeForce:
     """
 
     code: str
-    clause: str
     along: Sourced
+    clause: str = ""
     across: Sourced | None = None
     height: Sourced | None = None
     stiffness: Sourced | None = None
@@ -106,7 +106,6 @@ def jtg_d60() -> CodeForce:
     """JTG D60, General Code for Design of Highway and Culverts (China)."""
     return CodeForce(
         code="JTG D60",
-        clause="vehicular impact",
         along=Sourced(1000e3, CITED),
         across=Sourced(500e3, CITED),
         height=Sourced(1.2, SECOND_HAND),
@@ -182,7 +181,6 @@ def as_5100_2() -> CodeForce:
     return CodeForce(
         code="AS 5100.2",
         edition="older",
-        clause="collision load",
         along=Sourced(2000e3, READ),
         note="An ultimate load.",
     )
@@ -193,7 +191,6 @@ def csa_s6_2000() -> CodeForce:
     return CodeForce(
         code="CSA S6",
         edition="2000",
-        clause="collision load",
         along=Sourced(1400e3, SECOND_HAND),
         height=Sourced(1.2, SECOND_HAND),
     )

@@ -37,7 +37,7 @@ def codes_table(calculation: Calculation) -> Block:
             [
                 code.code,
                 code.edition or _UNKNOWN,
-                code.clause,
+                code.clause or _UNKNOWN,
                 shown(code.along, "force"),
                 shown(code.across, "force"),
                 shown(code.height, "length"),
