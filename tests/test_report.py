@@ -308,6 +308,19 @@ def test_numbers_of_equations_tables_and_figures(made):
     assert f"({len(equations) + 1})" not in sheet
 
 
+def test_no_drawing_stands_among_what_comes_after_its_part(made):
+    _, *parts = made[1].html.read_text("utf-8").split("<h2 data-number")
+    tables = [re.findall(r"(Table)&nbsp;(\d+\.)</span>", part) for part in parts]
+    drawings = [re.findall(r"(Figure)&nbsp;(\d+\.)</span>", part) for part in parts]
+    assert sum(map(len, drawings)) == 4
+    for text in pdf_text(made[1].pdf):
+        for index, part in enumerate(drawings):
+            after = [" ".join(name) for names in tables[index + 1 :] for name in names]
+            for drawing in map(" ".join, part):
+                before, found, _ = text.partition(f"{drawing} ")
+                assert not (found and any(f"{name} " in before for name in after))
+
+
 def test_every_place_that_is_named_has_its_number(made):
     text = made[1].html.read_text("utf-8")
     anchors = set(re.findall(r' id="([^"]+)"', text))
