@@ -84,7 +84,8 @@ def case_values(path: Path) -> dict[str, object]:
         reason = str(error).partition("\n")[0]
         raise InputError(f"not valid YAML: {reason}") from None
     if not isinstance(values, dict):
-        raise InputError(f"must be keys and values (key: value), got {brief(values)}")
+        found = "nothing" if values is None else brief(values)
+        raise InputError(f"must be keys and values (key: value), got {found}")
     return values
 
 

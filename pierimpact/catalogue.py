@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pierimpact.checks import InputError, number, one_of
+from pierimpact.checks import InputError, number, one_line, one_of
 from pierimpact.crush import CrushSpring
 from pierimpact.truck import Truck
 from pierimpact.units import brief, nearest, parse
@@ -159,6 +159,7 @@ def _validated(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile:
     for name, value in entries.items():
         if not (isinstance(value, str) and value.strip()):
             raise InputError(f"{name} must be text, got {brief(value)}")
+        one_line(name, value)
     one_of("status", entries["status"], STATUSES)
     for spring in ("engine_spring", "body_spring"):
         parameters = table.pop(spring, None)
@@ -201,8 +202,10 @@ def _parameter(name: str, entry: object) -> Parameter:
     for key in keys:
         if key not in entry:
             raise InputError(f"{name}.{key} is missing")
-        if key != "value" and not (isinstance(entry[key], str) and entry[key].strip()):
-            raise InputError(f"{name}.{key} must be text, got {brief(entry[key])}")
+        if key != "value":
+            if not (isinstance(entry[key], str) and entry[key].strip()):
+                raise InputError(f"{name}.{key} must be text, got {brief(entry[key])}")
+            one_line(f"{name}.{key}", entry[key])
     one_of(f"{name}.status", entry["status"], STATUSES)
     value: float | str
     if dimension is None:

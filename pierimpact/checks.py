@@ -1,10 +1,16 @@
 """The rules that inputs must meet, and the one-line errors when they do not."""
 
 import math
+import unicodedata
 from typing import SupportsFloat
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+# Categories of controls, halves of characters, and ends of lines and paragraphs.
+_CONTROLS = ("Cc", "Cs", "Zl", "Zp")
+# Byte order marks, which PDF/A forbids, and what turns the direction of the text after it.
+_MARKS = "\ufeff\ufffe\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
 
 
 class InputError(ValueError):
@@ -42,6 +48,13 @@ def one_of(name: str, value: str, choices: tuple[str, ...]) -> str:
     """Return `value` if it is among `choices`."""
     if value not in choices:
         raise InputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
+    return value
+
+
+def one_line(name: str, value: str) -> str:
+    """Return `value` if it is one line of text that prints, whatever stands beside it."""
+    if any(unicodedata.category(letter) in _CONTROLS or letter in _MARKS for letter in value):
+        raise InputError(f"{name} must be one line without control characters, got {value!r:.60}")
     return value
 
 

@@ -1,13 +1,12 @@
 """The keys of a case file: what each may be, and the one-line errors where it is not."""
 
 import datetime
-import unicodedata
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, ValidationInfo
 
-from pierimpact.checks import InputError, not_negative
+from pierimpact.checks import InputError, not_negative, one_line
 from pierimpact.units import brief, nearest, parse
 
 
@@ -55,9 +54,7 @@ def _impact_height(name: str, value: Any) -> Any:
 def _text(name: str, value: Any) -> str:
     if not isinstance(value, str):
         raise InputError(f"{name} must be text (in quotes if it is a number), got {brief(value)}")
-    if any(unicodedata.category(character) in ("Cc", "Cs", "Zl", "Zp") for character in value):
-        raise InputError(f"{name} must be one line without control characters, got {brief(value)}")
-    return value
+    return one_line(name, value)
 
 
 def _texts(name: str, value: Any) -> tuple[str, ...]:

@@ -139,6 +139,8 @@ def test_concrete_modulus_is_near_the_form_of_the_formula_in_psi():
         ({"units": "metric"}, "units must be 'SI' or 'US', got 'metric'"),
         ({"job_number": 7}, "job_number must be text (in quotes if it is a number), got 7"),
         ({"project": "a\nb"}, "project must be one line without control characters, got 'a\\nb'"),
+        ({"project": "a\ufeffb"}, "project must be one line without control characters, got"),
+        ({"project": "a\u202eb"}, "project must be one line without control characters, got"),
         ({"date": "31.1.2026"}, "date must be a date such as 2026-01-31, got '31.1.2026'"),
         ({"notes": "one"}, "notes must be a list of texts, got 'one'"),
         ({"notes": [1]}, "notes must be text (in quotes if it is a number), got 1"),
@@ -196,7 +198,7 @@ def test_a_truck_file_is_looked_for_beside_the_case_file(tmp_path):
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (b"", "must be keys and values (key: value), got None"),
+        (b"", "must be keys and values (key: value), got nothing"),
         (b"- a\n- b\n", "must be keys and values (key: value), got ['a', 'b']"),
         (b"just words", "must be keys and values (key: value), got 'just words'"),
         (b"project: \xff", "is not UTF-8 text"),

@@ -79,6 +79,11 @@ def test_a_truck_of_ones_own_loads_by_path(tmp_path):
             'units = "kg"',
             "engine_mass.units is not a key; did you mean engine_mass.",
         ),
+        (
+            'source = "what is left of 8 t"',
+            r'source = "what\nis left"',
+            "body_mass.source must be one line without control characters, got 'what\\nis left'",
+        ),
         ("value = 700\n", "", "engine_mass.value is missing"),
         ("value = 700\n", 'value = "700"\n', "engine_mass.value must be a number, got '700'"),
         ("value = 700\n", "value = nan\n", "engine_mass.value must be finite, got nan"),

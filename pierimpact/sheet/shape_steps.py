@@ -3,7 +3,7 @@
 import numpy as np
 
 from pierimpact.calculation import Calculation
-from pierimpact.sheet.markup import Tex, in_tex, number_in_tex
+from pierimpact.sheet.markup import Ref, Tex, in_tex, number_in_tex
 from pierimpact.sheet.numbered import Column, Equation, Steps, Table
 from pierimpact.sheet.pier_values import pier_writer
 from pierimpact.sheet.step_writer import StepWriter
@@ -112,6 +112,8 @@ def shape_table(calculation: Calculation) -> Table:
         caption=(
             "Shape function. As a check, Simpson’s rule over these ordinates, part by part, makes ",
             Tex(r"\int \varphi^2 \, \mathrm{d}z = " + in_tex(printed(check, "length", system))),
+            ", to be set against ",
+            Ref("Eq.", "eq-phi2"),
             ".",
         ),
         columns=[

@@ -81,6 +81,7 @@ class StepWriter:
         def value(match: re.Match[str]) -> str:
             text, power = self._in_tex(match[2], units=units), match[3]
             grouped = (power and (units or "times" in text)) or (match[1] and "times" in text)
+            grouped = grouped and not text.startswith("(")
             before = match[1] or ""
             return f"{before}({text}){power}" if grouped else before + text + power
 
