@@ -20,8 +20,9 @@ from pierimpact import report as report_module
 from pierimpact.calculation import calculate
 from pierimpact.casefile import read_case
 from pierimpact.checks import InputError
-from pierimpact.exporters import SheetPDFExporter, compile_typst
+from pierimpact.exporters import SheetPDFExporter, compile_typst, notebook_of
 from pierimpact.report import ReportError, report_notebook, write_report
+from pierimpact.sheet.blocks import TitleBlock
 from pierimpact.units import printed
 
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
@@ -272,6 +273,16 @@ def test_what_no_font_has_prints_as_its_number():
     assert reader.pages[0].extract_text().count("[U+10FFFD]") == 2
     assert re.search(r"pdfuaid:part>1<", reader.xmp_metadata.stream.get_data().decode())
     assert compile_typst('#set document(title: "x")\n#"Łø Мост"', "2026-01-31")[1] == ""
+
+
+def test_no_word_runs_over_what_stands_beside_it():
+    word = "R" * 200
+    entries = {"Project": "x", "Element": word, "Job number": "7"}
+    title = TitleBlock(title="x", subtitle="y", entries=entries, date="2026-03-01", paper="a4")
+    pdf, _ = SheetPDFExporter().from_notebook_node(notebook_of([title]))
+    text = pypdf.PdfReader(io.BytesIO(pdf)).pages[0].extract_text().replace("\u200b", "")
+    assert word in squeezed(text)
+    assert max(map(len, re.findall("R+", text))) < 40  # 1.4 of 5.4 parts of 168 mm
 
 
 def test_what_no_font_has_is_told(us):

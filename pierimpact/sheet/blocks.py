@@ -9,7 +9,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pierimpact.sheet.markup import Inline, Piece, Ref, Tex, to_html, to_typst, typst_string
+from pierimpact.sheet.markup import (
+    Inline,
+    Piece,
+    Ref,
+    Tex,
+    breakable,
+    to_html,
+    to_typst,
+    typst_string,
+)
 from pierimpact.units import Printed
 
 #: MIME type of what running headers, document properties and paper size need to know.
@@ -75,7 +84,7 @@ class TitleBlock(Block):
     def to_typst(self) -> str:
         """Return the block as Typst markup."""
         entries = "".join(
-            f"({typst_string(label)}, {typst_string(text)}),"
+            f"({typst_string(label)}, {typst_string(breakable(text))}),"
             for label, text in self.entries.items()
         )
         title, subtitle = typst_string(self.title), typst_string(self.subtitle)

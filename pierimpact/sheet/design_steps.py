@@ -46,6 +46,10 @@ _SOURCES = {
     "pulse_spread": "of the same blow",
 }
 
+# The time of a contact that does not come about, and the speed that is zero then.
+_STOPPED = "of a body that would just reach the pier: this one stops before"
+_SPEED_AT = {"engine_time": "engine_speed", "cargo_time": "cargo_speed"}
+
 # Parts of the procedure, and the first step of the next.
 _ENDS = {
     "plateau": ("engine_first_time",),
@@ -104,7 +108,13 @@ def procedure_steps(calculation: Calculation, part: str) -> Block:
         return Paragraph(
             ("The cargo stops before it meets the pier, ", Tex("v_2 = 0"), ": it has no reaction.")
         )
-    write = StepWriter(_values(design), calculation.case.inputs.units)
+    values = _values(design)
+    stopped = {
+        time: _STOPPED
+        for time, speed in _SPEED_AT.items()
+        if speed in values and values[speed].value == 0.0
+    }
+    write = StepWriter(values, calculation.case.inputs.units)
     return Steps(
         [
             write.step(
@@ -112,7 +122,7 @@ def procedure_steps(calculation: Calculation, part: str) -> Block:
                 step.name,
                 step.formula,
                 units=False,
-                source=_SOURCES.get(step.name, ""),
+                source=(_SOURCES | stopped).get(step.name, ""),
             )
             for step in steps
         ]

@@ -74,7 +74,15 @@ def to_typst(inline: Inline) -> str:
     if isinstance(inline, Ref):
         return f"#link(<{inline.label}>)[{inline.kind}];"
     text = inline.text if isinstance(inline, Link) else inline
-    return f"#{typst_string(text)};"
+    return f"#{typst_string(breakable(text))};"
+
+
+def breakable(text: str) -> str:
+    """Return `text` with spaces of no width in words that would not fit a line of a column.
+
+    Only between ASCII characters, as others may join or stand on one another.
+    """
+    return re.sub(r"[!-~]{20,}", lambda word: "\u200b".join(word[0]), text)
 
 
 def typst_string(text: str) -> str:
