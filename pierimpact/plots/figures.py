@@ -1,37 +1,17 @@
 """Figures, drawn as SVG with text as outlines: they look the same whatever fonts there are."""
 
-import io
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 
 from pierimpact.history import CollisionHistory
 from pierimpact.member_forces import MemberForces
+from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, sheet_figure, to_svg
 from pierimpact.sensitivity import Sensitivity, Variation
 from pierimpact.units import printed, unit_of, unit_size
 
-# Colours of Okabe and Ito, told apart by colour-blind readers too.
-BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#8a8a8a"
-
 MODEL, DESIGN = "full model", "design procedure"
-
-_STYLE: Any = {
-    "font.family": "STIXGeneral",
-    "mathtext.fontset": "stix",
-    "font.size": 9.0,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.linewidth": 0.6,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "axes.labelsize": 9.0,
-    "svg.fonttype": "path",
-    "svg.hashsalt": "pierimpact",  # the same drawing gives the same bytes
-}
 
 
 def draw_history(history: CollisionHistory, system: str) -> str:
@@ -44,7 +24,7 @@ def draw_history(history: CollisionHistory, system: str) -> str:
     system : {"SI", "US"}
         Units to print in.
     """
-    with _figure(6.5, 2.8, left=0.105, right=0.99, bottom=0.16, top=0.97) as figure:
+    with sheet_figure(6.5, 2.8, left=0.105, right=0.99, bottom=0.16, top=0.97) as figure:
         axes = figure.add_subplot()
         time = history.time / unit_size("time", system)
         force = history.contact_force / unit_size("force", system)
@@ -94,13 +74,15 @@ def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
         "Cargo": (spectrum.cargo, spectrum.design_cargo),
     }
     here = int(np.argmin(np.abs(spectrum.values - frequency)))
-    with _figure(6.5, 2.7, left=0.105, right=0.985, bottom=0.17, top=0.9, wspace=0.1) as figure:
+    with sheet_figure(
+        6.5, 2.7, left=0.105, right=0.985, bottom=0.17, top=0.9, wspace=0.1
+    ) as figure:
         panels = figure.subplots(1, 2, sharey=True)
         for axes, (name, (model, design)) in zip(panels, curves.items(), strict=True):
             axes.axvline(frequency, color=GREY, linewidth=0.8)
             _plot_both(axes, spectrum.values, model, design, system)
             _mark_both(axes, frequency, model[here], design[here], system)
-            _logarithmic(axes)
+            logarithmic(axes)
             axes.set_xlim(float(spectrum.values[0]), float(spectrum.values[-1]))
             axes.set_xlabel("Pier frequency [Hz]")
             axes.set_title(name, loc="left", fontsize=9.0)
@@ -124,7 +106,9 @@ def draw_member_forces(forces: MemberForces, system: str) -> str:
     """
     z = forces.z / unit_size("length", system)
     impact = z[1]
-    with _figure(6.5, 3.1, left=0.105, right=0.985, bottom=0.15, top=0.9, wspace=0.12) as figure:
+    with sheet_figure(
+        6.5, 3.1, left=0.105, right=0.985, bottom=0.15, top=0.9, wspace=0.12
+    ) as figure:
         column, *diagrams = figure.subplots(1, 3, sharey=True, width_ratios=[0.7, 1.0, 1.0])
         column.plot([0.0, 0.0], [z[0], z[-1]], color="black", linewidth=3.0)
         column.annotate(
@@ -198,7 +182,7 @@ def draw_sensitivity(
         ("impact_height", "length", "Impact height"),
         ("frequency", "frequency", "Pier frequency"),
     )
-    with _figure(
+    with sheet_figure(
         6.5, 4.6, left=0.105, right=0.985, bottom=0.1, top=0.97, hspace=0.35, wspace=0.1
     ) as figure:
         grid = figure.subplots(2, 2, sharey=True)
@@ -210,7 +194,7 @@ def draw_sensitivity(
             axes.set_xlabel(f"{words} [{unit_of(quantity, system)}]")
             axes.set_xlim(float(variation.values[0]) / size, float(variation.values[-1]) / size)
             if name == "frequency":
-                _logarithmic(axes)
+                logarithmic(axes)
             axes.grid(axis="y", color="#e2e6e9", linewidth=0.6)
         grid[0, 0].set_ylim(bottom=0.0)
         for axes in grid[:, 0]:
@@ -231,29 +215,6 @@ def _mark_both(axes: Any, x: float, model: float, design: float, system: str) ->
     axes.plot([x], [model / size], "o", color=BLUE, markersize=4.0, zorder=5)
 
 
-def _logarithmic(axes: Any) -> None:
-    axes.set_xscale("log")
-    frequencies = (2, 5, 10, 20, 50, 100, 200)
-    axes.set_xticks(frequencies, map(str, frequencies))
-    axes.minorticks_off()
-
-
 def _name_both(axes: Any) -> None:
     handles, names = axes.get_legend_handles_labels()
     axes.legend(handles[::-1], names[::-1], frameon=False, loc="upper left", fontsize=8.5)
-
-
-@contextmanager
-def _figure(width: float, height: float, **margins: float) -> Iterator[Figure]:
-    """Give a figure of a size in inches, in the style of the sheet."""
-    with rc_context(_STYLE):
-        figure = Figure(figsize=(width, height))
-        figure.subplots_adjust(**margins)
-        yield figure
-
-
-def to_svg(figure: Figure) -> str:
-    """Return a figure as SVG, without its date."""
-    buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", metadata={"Date": None})
-    return buffer.getvalue()

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.design.formulas import amplification
-from pierimpact.plots.figures import BLUE, DESIGN, GREY, MODEL, VERMILION, _figure, to_svg
+from pierimpact.plots.figures import DESIGN, MODEL
+from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, sheet_figure, to_svg
 from pierimpact.reduction import exact_amplification
 from pierimpact.spectra import Spectrum
 from pierimpact.study import Reactions
@@ -43,7 +44,7 @@ def draw_amplification(mass_ratios: Sequence[float], restitution: float, damping
     restitution, damping : float
         e and ζ of all of them [-].
     """
-    with _figure(6.5, 3.0, left=0.085, right=0.985, bottom=0.15, top=0.97) as figure:
+    with sheet_figure(6.5, 3.0, left=0.085, right=0.985, bottom=0.15, top=0.97) as figure:
         axes = figure.add_subplot()
         for mu in mass_ratios:
             exact = exact_amplification(_RATIOS, mu, restitution, damping)
@@ -72,7 +73,7 @@ def draw_amplification(mass_ratios: Sequence[float], restitution: float, damping
                 fontsize=8.5,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
             )
-        _logarithmic(axes, (0.1, 0.2, 0.5, 1, 2, 5, 10))
+        logarithmic(axes, (0.1, 0.2, 0.5, 1, 2, 5, 10))
         axes.set_xlim(_RATIOS[0], _RATIOS[-1])
         axes.set_ylim(bottom=0.0)
         axes.set_xlabel("Frequency ratio $\\beta = f_\\mathrm{p} / f_i$")
@@ -92,7 +93,9 @@ def draw_routes(engine: Spectrum, cargo: Spectrum, system: str) -> str:
         Units to print in.
     """
     size = unit_size("force", system)
-    with _figure(6.5, 2.9, left=0.105, right=0.985, bottom=0.16, top=0.91, wspace=0.1) as figure:
+    with sheet_figure(
+        6.5, 2.9, left=0.105, right=0.985, bottom=0.16, top=0.91, wspace=0.1
+    ) as figure:
         panels = figure.subplots(1, 2, sharey=True)
         for axes, name, spectrum in zip(panels, ("Engine", "Cargo"), (engine, cargo), strict=True):
             axes.plot(
@@ -118,7 +121,7 @@ def draw_routes(engine: Spectrum, cargo: Spectrum, system: str) -> str:
                 linewidth=1.4,
                 label=MODEL,
             )
-            _logarithmic(axes, (2, 5, 10, 20, 50, 100, 200))
+            logarithmic(axes)
             axes.set_xlim(spectrum.frequency[0], spectrum.frequency[-1])
             axes.set_xlabel("Pier frequency [Hz]")
             axes.set_title(name, loc="left", fontsize=9.0)
@@ -147,7 +150,9 @@ def draw_scatter(frequency: Array, exact: Reactions, predicted: Reactions, syste
     """
     size = unit_size("force", system)
     ends = 0.5e6 / size, 20e6 / size
-    with _figure(6.5, 2.75, left=0.1, right=0.99, bottom=0.26, top=0.91, wspace=0.08) as figure:
+    with sheet_figure(
+        6.5, 2.75, left=0.1, right=0.99, bottom=0.26, top=0.91, wspace=0.08
+    ) as figure:
         panels = figure.subplots(1, 3, sharey=True)
         for axes, name in zip(panels, Reactions._fields, strict=True):
             for share, line in ((1.0, "-"), (0.9, ":"), (1.1, ":")):
@@ -193,22 +198,16 @@ def draw_ratios(frequency: Array, exact: Reactions, predicted: Reactions) -> str
 
     Engine, cargo and governing apart; arguments as in `draw_scatter`.
     """
-    with _figure(6.5, 2.4, left=0.1, right=0.99, bottom=0.19, top=0.91, wspace=0.08) as figure:
+    with sheet_figure(6.5, 2.4, left=0.1, right=0.99, bottom=0.19, top=0.91, wspace=0.08) as figure:
         panels = figure.subplots(1, 3, sharey=True)
         for axes, name in zip(panels, Reactions._fields, strict=True):
             axes.axhline(1.0, color="black", linewidth=0.6)
             ratio = getattr(predicted, name) / getattr(exact, name)
             axes.plot(frequency, ratio, color=BLUE, **_DOTS)
             axes.set_title(name.capitalize(), loc="left", fontsize=9.0)
-            _logarithmic(axes, (5, 10, 20, 50, 100))
+            logarithmic(axes, (5, 10, 20, 50, 100))
         panels[0].set_ylim(0.7, 1.7)
         panels[1].set_xlabel("Pier frequency [Hz]")
         panels[0].set_ylabel(f"Predicted / {MODEL}")
         figure.set_dpi(300)
         return to_svg(figure)
-
-
-def _logarithmic(axes: Any, ticks: Sequence[float]) -> None:
-    axes.set_xscale("log")
-    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    axes.minorticks_off()
