@@ -7,11 +7,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, positive_array, ratio_array
 from pierimpact.crush import CrushSpring
-from pierimpact.motion import Collision, Spring
+from pierimpact.motion import CHUNK, Collision, Spring
 from pierimpact.pier import EquivalentPier
 from pierimpact.truck import Truck
-
-CHUNK = 2048  # collisions side by side: their arrays stay in the processor's cache
 
 
 def collision(truck: Truck, pier: EquivalentPier, speed: float) -> Collision:

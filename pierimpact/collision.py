@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.cases import collision, collisions
 from pierimpact.checks import not_negative, positive
 from pierimpact.history import CollisionHistory, RecordedStep
-from pierimpact.motion import OUTCOMES, Law, State, follow, follow_all
+from pierimpact.motion import Law, State, follow, follow_all
 from pierimpact.pier import EquivalentPier
 from pierimpact.truck import Truck
 
@@ -117,17 +117,13 @@ def peak_reactions(
         When a value is out of range or the shapes do not broadcast.
     """
     shape, parts = collisions(truck, pier_mass, pier_stiffness, damping_ratio, speed)
-    found = np.empty((len(OUTCOMES), math.prod(shape)))
-    for part, case in parts:
-        found[:, part] = follow_all(case)
-        found[2, part] *= case.pier_stiffness
-        found[4, part] *= case.pier_stiffness
-    engine_contact, cargo_contact, engine, engine_time, cargo, cargo_time = found.reshape(
-        len(OUTCOMES), *shape
+    outcomes = follow_all((case for _, case in parts), math.prod(shape))
+    engine_contact, cargo_contact, engine, engine_time, cargo, cargo_time = (
+        outcome.reshape(shape) for outcome in outcomes
     )
     return PeakReactions(
-        engine=engine,
-        cargo=cargo,
+        engine=np.multiply(pier_stiffness, engine),
+        cargo=np.multiply(pier_stiffness, cargo),
         engine_time=engine_time,
         cargo_time=cargo_time,
         engine_contact_time=engine_contact,

@@ -21,17 +21,18 @@ From the model to the reduction, step by step:
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.cases import CHUNK
 from pierimpact.checks import InputError, positive_array, ratio_array
 from pierimpact.motion import (
-    ARRAYS,
     FREE,
     OUTCOMES,
     STEEP,
     Collision,
+    Ops,
     Position,
     Spring,
+    State,
     branch,
+    chunks,
     follow_all,
     start,
 )
@@ -75,29 +76,13 @@ def exact_amplification(
         raise InputError(f"restitution must be at most 1, got {e.max():g}")
     zeta = ratio_array("damping_ratio", damping_ratio)
     arrays = np.broadcast_arrays(beta, mu, e, zeta)
-    flat = np.stack([array.reshape(-1) for array in arrays])
-    found = np.empty(flat.shape[1])
-    for first in range(0, len(found), CHUNK):
-        part = slice(first, first + CHUNK)
-        found[part] = _amplification(*flat[:, part])
-    return found.reshape(arrays[0].shape)
-
-
-def _amplification(
-    beta: NDArray[np.float64],
-    mu: NDArray[np.float64],
-    e: NDArray[np.float64],
-    zeta: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    # m_i = k_i = v_i = 1, so that the peak reaction is S. The engine's spring starts at contact,
-    # with no plateau force. The other body rests on the road out of reach.
+    beta, mu, e, zeta = (array.reshape(-1) for array in arrays)
+    # m_i = k_i = v_i = 1, so that the peak reaction is S.
     one = np.ones_like(beta)
-    engine = Spring(one, 0.0 * one, one, one, 1.0 / e**2)
-    absent = Spring(one, one, AWAY * one, one, one)
     pier_mass, pier_stiffness = 1.0 / mu, beta**2 / mu
     case = Collision(
-        engine=engine,
-        body=absent,
+        engine=Spring(one, 0.0 * one, one, one, 1.0 / e**2),
+        body=Spring(one, one, AWAY * one, one, one),
         friction_force=one,
         on_pier=one < 0.0,
         pier_mass=pier_mass,
@@ -105,13 +90,19 @@ def _amplification(
         pier_damping=2.0 * zeta * np.sqrt(pier_mass * pier_stiffness),
         speed=one,
     )
-    contact = start(case, ARRAYS)._replace(
+    peak = follow_all(chunks(case), len(beta), _at_contact)[OUTCOMES.index("engine_peak")]
+    found: NDArray[np.float64] = (pier_stiffness * peak).reshape(arrays[0].shape)
+    return found
+
+
+def _at_contact(case: Collision, ops: Ops) -> State:
+    """Return the state in which the mass meets the pier, and the other body rests out of reach."""
+    one = case.speed
+    return start(case, ops)._replace(
         at=Position(one, one, -AWAY * one, 0.0 * one, 0.0 * one, 0.0 * one),
-        engine=branch(engine, STEEP * one, one, ARRAYS),
-        body=branch(absent, FREE * one, one, ARRAYS),
+        engine=branch(case.engine, STEEP * one, one, ops),
+        body=branch(case.body, FREE * one, one, ops),
         slip=0.0 * one,
         stuck=one > 0.0,
         engine_contact=0.0 * one,
     )
-    peak: NDArray[np.float64] = follow_all(case, contact)[OUTCOMES.index("engine_peak")]
-    return pier_stiffness * peak

@@ -14,10 +14,21 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.cases import CHUNK, collision
+from pierimpact.cases import collision
 from pierimpact.design import domain, formulas
 from pierimpact.design.procedure import LEVELS, design_values
-from pierimpact.motion import OUTCOMES, STEEP, Collision, Law, Spring, State, follow, follow_all
+from pierimpact.motion import (
+    OUTCOMES,
+    STEEP,
+    Collision,
+    Law,
+    Spring,
+    State,
+    chunks,
+    follow,
+    follow_all,
+    take,
+)
 from pierimpact.pier import EquivalentPier
 from pierimpact.reduction import exact_amplification
 from pierimpact.truck import Truck
@@ -55,11 +66,7 @@ class Reactions(NamedTuple):
 
 def full_model(case: Collision) -> Reactions:
     """Return the peak reactions by the full model."""
-    parts = [
-        follow_all(take(case, slice(first, first + CHUNK)))
-        for first in range(0, len(case.speed), CHUNK)
-    ]
-    peaks = dict(zip(OUTCOMES, np.concatenate(parts, axis=1), strict=True))
+    peaks = dict(zip(OUTCOMES, follow_all(chunks(case), len(case.speed)), strict=True))
     engine = case.pier_stiffness * peaks["engine_peak"]
     cargo = case.pier_stiffness * peaks["cargo_peak"]
     return Reactions(engine, cargo, np.fmax(engine, cargo))
@@ -70,16 +77,6 @@ def predictions(case: Collision, level: str) -> Reactions:
     values = design_values(case, level)
     engine, cargo = values["engine"], values["cargo"]
     return Reactions(engine, cargo, np.fmax(engine, cargo))
-
-
-def take(case: Collision, part: Any) -> Collision:
-    """Return a part of many collisions, or one of them."""
-    return Collision(
-        *(
-            Spring(*(x[part] for x in item)) if isinstance(item, Spring) else item[part]
-            for item in case
-        )
-    )
 
 
 def with_truck(case: Collision, truck: Truck) -> Collision:

@@ -12,7 +12,7 @@ from pierimpact.crush import CrushSpring
 from pierimpact.design import domain
 from pierimpact.design.formulas import amplification
 from pierimpact.design.procedure import LEVELS
-from pierimpact.motion import Collision
+from pierimpact.motion import Collision, take
 from pierimpact.plots import validation as spectrum_figures
 from pierimpact.reduction import exact_amplification
 from pierimpact.sheet.blocks import Block, Column, Figure, Table
@@ -30,7 +30,6 @@ from pierimpact.study import (
     spectrum_arguments,
     speed_errors,
     summary,
-    take,
     with_truck,
 )
 from pierimpact.truck import Truck

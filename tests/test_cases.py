@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from pierimpact import EquivalentPier, InputError, load_truck
-from pierimpact.cases import CHUNK, collision, collisions
+from pierimpact.cases import collision, collisions
+from pierimpact.motion import CHUNK
 
 TRUCK = load_truck("single-unit-8t")
 

@@ -23,6 +23,7 @@ from pierimpact.cases import collisions
 from pierimpact.design import domain
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reaction import MUCH_SMALLER, nominal_impact_height
+from pierimpact.motion import take
 from pierimpact.reduction import exact_amplification
 
 GENERATED = settings(deadline=None, derandomize=True, max_examples=60)
@@ -103,13 +104,13 @@ def test_contacts_are_those_of_the_full_model(level, sample):
     differ = np.isnan(predicted.cargo) != np.isnan(exact.cargo)
     assert differ.mean() < 0.005
     # Where they differ, hardly any speed is left.
-    values = design_values(study.take(case, differ), level)
+    values = design_values(take(case, differ), level)
     assert (values["cargo_speed"] < 0.1 * case.speed[differ]).all()
 
 
 @pytest.mark.parametrize(("level", "largest"), [("refined", 0.01), ("hand", 0.06)])
 def test_approach_speeds(level, largest, sample):
-    case = study.take(sample[0], slice(0, 250))
+    case = take(sample[0], slice(0, 250))
     errors = study.speed_errors(case)[level]
     for body in ("engine", "cargo"):
         assert errors[body]["cases"] > 200

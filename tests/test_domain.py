@@ -6,7 +6,7 @@ import pytest
 from pierimpact import EquivalentPier, load_truck
 from pierimpact.cases import collision
 from pierimpact.design import domain
-from pierimpact.study import take
+from pierimpact.motion import take
 
 SIZE = 4000
 

@@ -10,6 +10,7 @@ from pierimpact.cases import collisions
 from pierimpact.catalogue import load_truck
 from pierimpact.design import domain, formulas
 from pierimpact.design.procedure import LEVELS
+from pierimpact.motion import take
 from pierimpact.reduction import exact_amplification
 
 
@@ -75,7 +76,7 @@ def test_the_fit_s_error_is_the_file_s(outcome, spectrum):
 
 def test_the_first_cases_of_the_file_come_out_again(outcome):
     # The whole study takes long; a part of it must agree with the whole as a sample does.
-    case = study.take(domain.sample(study.SIZE, study.SEED), slice(0, 600))
+    case = take(domain.sample(study.SIZE, study.SEED), slice(0, 600))
     exact = study.full_model(case)
     for level in LEVELS:
         predicted = study.predictions(case, level)
@@ -90,7 +91,7 @@ def test_the_first_cases_of_the_file_come_out_again(outcome):
 
 
 def test_the_file_is_up_to_date(outcome):
-    case = study.take(domain.sample(study.SIZE, study.SEED), slice(0, study.SHOWN))
+    case = take(domain.sample(study.SIZE, study.SEED), slice(0, study.SHOWN))
     exact = study.full_model(case).governing
     for level in LEVELS:
         stated = outcome["governing of the first cases, predicted over CMSD"][level]
@@ -99,7 +100,7 @@ def test_the_file_is_up_to_date(outcome):
 
 
 def test_approach_speeds_of_the_file(outcome):
-    case = study.take(domain.sample(study.SIZE, study.SEED), slice(0, 60))
+    case = take(domain.sample(study.SIZE, study.SEED), slice(0, 60))
     found, stated = (
         study.speed_errors(case),
         outcome["error of the approach speed over the truck's"],

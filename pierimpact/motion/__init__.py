@@ -2,10 +2,12 @@
 
 `regimes` says what holds between two changes and what a change brings; `coasting` passes the
 time in which nothing is coupled in closed form; `stepping` sums the coupled motion as its Taylor
-series and ends each step at the first change; `series` finds where that is.
+series and ends each step at the first change; `series` finds where that is; `groups` holds many
+collisions side by side.
 """
 
 from pierimpact.motion.coasting import coasted, ringing
+from pierimpact.motion.groups import CHUNK, chunks, take
 from pierimpact.motion.regimes import (
     FREE,
     STEEP,
@@ -17,21 +19,24 @@ from pierimpact.motion.regimes import (
     branch,
     start,
 )
-from pierimpact.motion.series import ARRAYS, FLOATS
+from pierimpact.motion.series import ARRAYS, FLOATS, Ops
 from pierimpact.motion.stepping import OUTCOMES, expand, follow, follow_all, longest_step
 
 __all__ = [
     "ARRAYS",
+    "CHUNK",
     "FLOATS",
     "FREE",
     "OUTCOMES",
     "STEEP",
     "Collision",
     "Law",
+    "Ops",
     "Position",
     "Spring",
     "State",
     "branch",
+    "chunks",
     "coasted",
     "expand",
     "follow",
@@ -39,4 +44,5 @@ __all__ = [
     "longest_step",
     "ringing",
     "start",
+    "take",
 ]

@@ -232,6 +232,8 @@ def change_regime(case: Collision, state: State, law: Law, event: Real, ops: Ops
 def change(spring: Spring, line: Branch, event: Real, crush: Real, ops: Ops) -> Branch:
     """Return the spring's line after `event`, one of UPPER, LOWER and TURN or none of its own."""
     where = ops.where
+    if not ops.some((event >= UPPER) & (event <= TURN)):
+        return line
     upper, turn = event == UPPER, event == TURN
     virgin = where(line.largest < spring.plateau_length, PLATEAU, STEEP)
     above = where(line.regime == FREE, ELASTIC, where(line.regime == ELASTIC, virgin, STEEP))

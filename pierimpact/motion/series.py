@@ -197,10 +197,11 @@ def rises_of_one(flagged: list[tuple[Watched, Flag]], series: Sequence[Terms]) -
     for (event, order, parts, level), flag in flagged:
         if not flag:
             continue
-        terms = [0.0] * width
-        for weight, which in parts:
-            motion = series[which][order : order + width]
-            terms = [term + weight * more for term, more in zip(terms, motion, strict=True)]
+        weighted = [
+            map(mul, repeat(weight), series[which][order : order + width])
+            for weight, which in parts
+        ]
+        terms = list(map(sum, zip(*weighted, strict=True)) if len(parts) > 1 else weighted[0])
         terms[0] += level
         due, part, shape = first_suspect(terms, FLOATS)
         if due:
@@ -238,10 +239,11 @@ def rises_of_all(flagged: list[tuple[Watched, Flag]], series: Sequence[Terms]) -
 
 def _gather(watched: Watched, cases: Any, series: Sequence[Terms]) -> Terms:
     width = len(series[0]) - 2
-    terms = np.zeros((width, len(cases)))
-    for weight, which in watched.parts:
-        motion = series[which][watched.order : watched.order + width]
-        terms += weight[cases] * motion[:, cases]
+    weighted = [
+        weight[cases] * series[which][watched.order : watched.order + width, cases]
+        for weight, which in watched.parts
+    ]
+    terms = sum(weighted[1:], start=weighted[0])
     terms[0] += watched.level[cases]
     return terms
 
@@ -263,7 +265,7 @@ ARRAYS = Ops(
     lib=np,
     where=np.where,
     negate=np.logical_not,
-    some=np.any,
+    some=np.count_nonzero,
     sizes=np.abs,
     largest=np.max,
     blank=lambda like, count: np.empty((3, count, len(like))),

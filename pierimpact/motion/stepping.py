@@ -6,13 +6,14 @@ friction past its regime ends at the instant of the change, found on the series 
 """
 
 import math
-from collections.abc import Callable
-from typing import Any, TypeAlias, TypeVar
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.motion.coasting import coast
+from pierimpact.motion.groups import CHUNK, join, take
 from pierimpact.motion.regimes import (
     BACKWARD,
     ELASTIC,
@@ -309,15 +310,31 @@ OUTCOMES = (
 )
 
 
-def follow_all(case: Collision, state: State | None = None) -> NDArray[np.float64]:
+class Running(NamedTuple):
+    """Collisions under way, side by side."""
+
+    case: Collision
+    state: State
+    place: NDArray[np.int_]  # among the outcomes
+    steps: NDArray[np.int_]  # taken so far
+
+
+def follow_all(
+    parts: Iterable[Collision], size: int, begin: Callable[[Collision, Ops], State] = start
+) -> NDArray[np.float64]:
     """Propagate collisions side by side until nothing more can happen in any.
+
+    Those that are done make room for the next part, so that the arrays neither grow with the
+    number of collisions nor run almost empty.
 
     Parameters
     ----------
-    case : Collision
-        Arrays of shape (n,).
-    state : State, optional
-        Where to start from, instead of first touch; arrays of shape (n,).
+    parts : iterable of Collision
+        Some collisions at a time; arrays of shape (m,).
+    size : int
+        Number n of the collisions in all parts.
+    begin : callable, optional
+        From collisions to the states they start from; first touch unless another is given.
 
     Returns
     -------
@@ -329,30 +346,36 @@ def follow_all(case: Collision, state: State | None = None) -> NDArray[np.float6
     RuntimeError
         When a collision does not come to an end.
     """
-    state = start(case, ARRAYS) if state is None else state
-    outcomes = np.empty((len(OUTCOMES), len(case.speed)))
-    left = np.arange(len(case.speed))
-    done = np.zeros(len(left), dtype=bool)
-    for _ in range(STEPS):
-        law = linearise(case, state, ARRAYS)
-        state, _h = coast(case, state, law, ARRAYS)
-        state, _h = move(case, state, law, ARRAYS)
-        done |= finished(case, state, ARRAYS)
+    outcomes = np.empty((len(OUTCOMES), size))
+    waiting = _started(parts, begin)
+    running = next(waiting, None)
+    while running:
+        case, state, place, steps = running
+        done = np.zeros(len(place), dtype=bool)
         # Taking cases out costs about as much as a step: wait until a fifth of them is done.
-        if 5 * np.count_nonzero(done) > len(done) or done.all():
-            outcomes[:, left[done]] = [getattr(state, name)[done] for name in OUTCOMES]
-            going = ~done
-            if not going.any():
-                return outcomes
-            left, done = left[going], done[going]
-            case, state = _take(case, going), _take(state, going)
-    raise RuntimeError("a collision did not come to an end")
+        while 5 * np.count_nonzero(done) <= len(done) and not done.all():
+            law = linearise(case, state, ARRAYS)
+            state, _h = coast(case, state, law, ARRAYS)
+            state, _h = move(case, state, law, ARRAYS)
+            done |= finished(case, state, ARRAYS)
+            steps = steps + 1
+            if steps.max() > STEPS:
+                raise RuntimeError("a collision did not come to an end")
+        outcomes[:, place[done]] = [getattr(state, name)[done] for name in OUTCOMES]
+        running = take(Running(case, state, place, steps), ~done)
+        if 2 * len(running.place) < CHUNK:
+            more = next(waiting, None)
+            running = join(running, more) if more else running
+        if not len(running.place):
+            return outcomes
+    return outcomes
 
 
-T = TypeVar("T", bound=tuple[Any, ...])
-
-
-def _take(group: T, mask: NDArray[np.bool_]) -> T:
-    return type(group)(
-        *(_take(item, mask) if isinstance(item, tuple) else item[mask] for item in group)
-    )
+def _started(
+    parts: Iterable[Collision], begin: Callable[[Collision, Ops], State]
+) -> Iterator[Running]:
+    first = 0
+    for case in parts:
+        place = np.arange(first, first + len(case.speed))
+        first += len(place)
+        yield Running(case, begin(case, ARRAYS), place, 0 * place)
