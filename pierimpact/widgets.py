@@ -8,14 +8,12 @@ from pierimpact.teaching import readouts, theory
 from pierimpact.teaching.collision_explorer import CollisionExplorer
 from pierimpact.teaching.explorer import HALF, Contents, Explorer
 from pierimpact.teaching.live import LiveFigure, LiveWords
-from pierimpact.teaching.scenario import Scenario
+from pierimpact.teaching.scenario import EXAMPLE, Scenario
 from pierimpact.teaching.variables import CRUSH
 
 _COLUMN = ["column_diameter", "column_height", "base", "top", "damping_ratio"]
 _PIER = ["pier_frequency", "pier_mass", "damping_ratio"]
 _THIRD = (296.0, 320.0)  # of the room beside the controls [px]
-# The pier of the notebooks on reduction and spectra: between soft and stiff.
-_EXAMPLE = Scenario(pier_mass=8e3, pier_frequency=30.0)
 
 
 def collision() -> Explorer:
@@ -43,7 +41,7 @@ def spectra() -> Explorer:
         title="A collision and its place on the spectra of engine and cargo",
         controls=[*_PIER, "speed", "truck_mass"],
         spectra=True,
-        defaults=_EXAMPLE,
+        defaults=EXAMPLE,
     )
 
 
@@ -116,7 +114,7 @@ def reduction() -> Explorer:
         words=lambda scenario: readouts.amplification_words(
             scenario.strike, theory.by_hand(scenario.strike)
         ),
-        defaults=_EXAMPLE,
+        defaults=EXAMPLE,
     )
 
 

@@ -33,7 +33,7 @@ _SPRINGS = {"engine spring": VERMILION, "body spring": BLUE}
 _THIN, _THICK = 1.2 * PIXEL, 2.2 * PIXEL
 # The shares of energy from the bottom up: attribute, words, colour.
 _SHARES = (
-    ("kinetic", "in motion", SKY),
+    ("kinetic", "motion", SKY),
     ("pier_elastic", "pier", GREEN),
     ("truck_elastic", "springs", ORANGE),
     ("crush", "crush", "#b0493c"),
@@ -89,7 +89,7 @@ def draw_forces(axes: Axes, history: CollisionHistory) -> None:
     for name, start, end in regimes(history):
         colour = BODIES.get(name, MUTED)
         axes.axvspan(1e3 * start, 1e3 * end, color=colour, alpha=0.13, linewidth=0.0)
-        if 1e3 * (end - start) > 0.02 * len(name) * axes.get_xlim()[1]:
+        if 1e3 * (end - start) > 0.016 * len(name) * axes.get_xlim()[1]:
             axes.annotate(
                 name,
                 (500.0 * (start + end), 0.0),
@@ -155,6 +155,7 @@ def energy_panel(figure: Figure) -> Axes:
         handleheight=0.8,
         handletextpad=0.4,
         columnspacing=0.7,
+        fontsize=10.0 * PIXEL,
     )
     return axes
 

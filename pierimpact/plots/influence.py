@@ -35,7 +35,7 @@ def influence_panel(figure: Figure, title: str, names: Sequence[str], change: fl
     axes.xaxis.set_major_formatter(PercentFormatter(1.0))
     axes.locator_params(axis="x", nbins=5)
     axes.axvline(0.0, color=MUTED, linewidth=PIXEL)
-    words = (f"parameter −{change:.0%}", f"parameter +{change:.0%}")
+    words = (f"−{change:.0%}", f"+{change:.0%}")
     patches = (Patch(color=colour) for colour in _COLOURS)
     key(axes, dict(zip(words, patches, strict=True)), handlelength=0.8, handleheight=0.8)
     return axes

@@ -89,11 +89,11 @@ class LiveFigure:
         )
 
     def show(self, *results: tuple[Any, ...]) -> None:
-        """Show results, one tuple of arguments a layer; what is the same object is not new."""
+        """Show results, one tuple of arguments a layer; the same object or number is not new."""
         changed = [
             index
             for index, (new, old) in enumerate(zip(results, self._results, strict=True))
-            if old is None or any(a is not b for a, b in zip(new, old, strict=True))
+            if old is None or not all(map(_same, new, old))
         ]
         if not changed:
             return
@@ -161,6 +161,10 @@ class LiveFigure:
             f'<img src="data:image/png;base64,{data}" alt="{alt}" style="flex:1 1 '
             f'{basis or self._basis};min-width:0;max-width:{self._widest}">'
         )
+
+
+def _same(new: Any, old: Any) -> bool:
+    return new is old or (isinstance(new, float) and isinstance(old, float) and new == old)
 
 
 def _palette(picture: Image.Image) -> Image.Image:

@@ -253,3 +253,7 @@ class Scenario:
             speed=self.speed,
             column=self.column.struck_at(self.impact_height),
         )
+
+
+#: The pier of the lessons on reduction and spectra: between soft and stiff.
+EXAMPLE = Scenario(pier_mass=8e3, pier_frequency=30.0)
