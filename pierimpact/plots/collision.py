@@ -59,7 +59,9 @@ def regimes(history: CollisionHistory) -> list[Regime]:
         "engine": (history.engine_contact_time, history.engine_force),
         "cargo": (history.cargo_contact_time, history.body_force),
     }
-    first = min([start for start, _ in contacts.values() if start is not None], default=end)
+    pressing = np.flatnonzero(history.engine_force + history.body_force > 0.0)
+    last = float(time[min(pressing[-1] + 1, len(time) - 1)])
+    first = min([start for start, _ in contacts.values() if start is not None], default=last)
     found = [Regime("crumpling", 0.0, first)]
     for name, (start, force) in contacts.items():
         if start is not None:
@@ -141,6 +143,7 @@ def mark_peaks(
             xytext=(-6, 5) if late else (6, 5),
             textcoords="offset points",
             horizontalalignment="right" if late else "left",
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5},
         )
 
 

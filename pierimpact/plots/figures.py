@@ -7,6 +7,7 @@ import numpy as np
 
 from pierimpact.history import CollisionHistory
 from pierimpact.member_forces import MemberForces
+from pierimpact.plots.collision import mark_peaks
 from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, sheet_figure, to_svg
 from pierimpact.sensitivity import Sensitivity, Variation
 from pierimpact.units import printed, unit_of, unit_size
@@ -35,26 +36,9 @@ def draw_history(history: CollisionHistory, system: str) -> str:
         axes.set_xlabel(f"Time after first touch [{unit_of('time', system)}]")
         axes.set_ylabel(f"Force [{unit_of('force', system)}]")
         axes.set_xlim(0.0, float(time[-1]))
-        _mark_peaks(axes, history, system)
+        colours = dict.fromkeys(("engine", "cargo"), VERMILION)
+        mark_peaks(axes, history, system, unit_size("force", system), colours)
         return to_svg(figure)
-
-
-def _mark_peaks(axes: Any, history: CollisionHistory, system: str) -> None:
-    peaks = {"Engine": history.engine_peak, "Cargo": history.cargo_peak}
-    for name, peak in peaks.items():
-        if peak is None:
-            continue
-        x = peak.time / unit_size("time", system)
-        y = peak.reaction / unit_size("force", system)
-        late = x > 0.7 * axes.get_xlim()[1]  # no room on the right
-        axes.plot([x], [y], "o", color=VERMILION, markersize=4.5, zorder=5)
-        axes.annotate(
-            f"{name} peak {printed(peak.reaction, 'force', system)}",
-            (x, y),
-            xytext=(-6, 5) if late else (6, 5),
-            textcoords="offset points",
-            horizontalalignment="right" if late else "left",
-        )
 
 
 def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:

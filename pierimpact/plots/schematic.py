@@ -122,7 +122,9 @@ def draw_scene(axes: Axes, scene: Scene) -> None:
     if column.height <= _TALLEST:
         _draw_support(axes, column.top, scene.depth, column.height, 1.0)
     else:
-        axes.text(scene.depth + 0.2, _TALLEST - 0.3, f"↑ up to {column.height:.3g} m", color=MUTED)
+        axes.text(
+            scene.depth + SWING + 0.2, _TALLEST - 0.3, f"↑ up to {column.height:.3g} m", color=MUTED
+        )
     axes.plot(
         [middle, middle], [0.0, min(column.height, _TALLEST)], ":", color=MUTED, linewidth=PIXEL
     )

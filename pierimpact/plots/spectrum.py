@@ -64,7 +64,7 @@ def draw_spectrum(axes: Axes, frequency: Array, full: Array, reduced: Array, *, 
     if np.isnan(full).all() and np.isnan(reduced).all():
         axes.text(
             0.5,
-            0.5,
+            0.45,
             f"The {body} does not reach the pier at this speed.",
             transform=axes.transAxes,
             horizontalalignment="center",
@@ -96,7 +96,7 @@ def draw_place(
     reaction : float or None
         Its peak [N]; None where the body does not meet the pier.
     """
-    known = [1e5, reaction or 0.0, *full[np.isfinite(full)], *reduced[np.isfinite(reduced)]]
+    known = [8e5, reaction or 0.0, *full[np.isfinite(full)], *reduced[np.isfinite(reduced)]]
     axes.set_xlim(round_out(float(frequency[0]), float(frequency[-1]), here))
     axes.set_ylim(0.0, round_up(1.2e-6 * max(known)))
     if reaction is None:

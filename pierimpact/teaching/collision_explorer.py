@@ -1,10 +1,12 @@
 """The explorer of one collision: its moving picture, forces, energy and place on the spectra."""
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 import ipywidgets as ipw
 
+from pierimpact.history import CollisionHistory
 from pierimpact.plots import collision, schematic, spectrum
 from pierimpact.plots.style import BODIES
 from pierimpact.teaching import readouts
@@ -13,13 +15,13 @@ from pierimpact.teaching.explorer import HALF, Contents, Explorer, side_by_side
 from pierimpact.teaching.live import LiveFigure, LiveWords
 from pierimpact.teaching.scenario import Scenario
 
-_MOMENTS = (
-    ("First touch", lambda history: 0.0),
-    ("Engine contact", lambda history: history.engine_contact_time),
-    ("Engine peak", lambda history: history.engine_peak.time),
-    ("Cargo contact", lambda history: history.cargo_contact_time),
-    ("Cargo peak", lambda history: history.cargo_peak and history.cargo_peak.time),
-)
+_MOMENTS: dict[str, Callable[[CollisionHistory], Any]] = {
+    "First touch": lambda history: 0.0,
+    "Engine contact": lambda history: history.engine_contact_time,
+    "Engine peak": lambda history: history.engine_peak.time,
+    "Cargo contact": lambda history: history.cargo_contact_time,
+    "Cargo peak": lambda history: history.cargo_peak and history.cargo_peak.time,
+}
 
 
 class CollisionExplorer(Explorer):
@@ -93,6 +95,8 @@ class CollisionExplorer(Explorer):
             animation = Animation(strike)
             # Nothing of the old collision is replaced before all of the new one is there.
             self._scenario, self.strike, self.animation = scenario, strike, animation
+            for words, when in _MOMENTS.items():
+                self._moments[words].disabled = when(strike.history) is None
         frame = self.animation.frame(self.frame.value)
         strike, history = self.strike, self.strike.history
         contents: dict[str, tuple[Any, ...]] = {
@@ -120,11 +124,11 @@ class CollisionExplorer(Explorer):
         self.frame.value = self.animation.index(time)
 
     def _arranged(self) -> ipw.Widget:
-        moments = []
-        for words, when in _MOMENTS:
+        self._moments = {}
+        for words, when in _MOMENTS.items():
             button = ipw.Button(description=words, layout=ipw.Layout(width="auto"))
-            button.on_click(lambda _, when=when: self._jump(when(self.strike.history)))
-            moments.append(button)
+            button.on_click(lambda _, when=when: self.show(when(self.strike.history)))
+            self._moments[words] = button
         shown = {name: view.widget for name, view in self.views.items()}
         whole = ipw.Layout(flex="1 1 100%")
         return side_by_side(
@@ -132,15 +136,11 @@ class CollisionExplorer(Explorer):
                 shown["instant"],
                 shown["picture"],
                 ipw.HBox([self.play, self.frame], layout=whole),
-                *moments,
+                *self._moments.values(),
                 shown["readout"],
                 *(shown[name] for name in self._charts),
             ]
         )
-
-    def _jump(self, time: float | None) -> None:
-        if time is not None:
-            self.show(time)
 
     def _stills(self, words: str) -> str:
         """Return the views as HTML, with a picture at either peak."""
