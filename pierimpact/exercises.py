@@ -135,7 +135,8 @@ def _show(widget: ipw.Widget, still: str) -> None:
     note = f'<div style="color:{MUTED}">To be answered in the live notebook.</div>'
     display(  # type: ignore[no-untyped-call]
         {
-            "text/html": f'{STYLE}<div class="{STILL}">{still and still + note}</div>',
+            "text/html": f'{STYLE}<div class="{STILL}" style="margin:0.7em 0">'
+            f"{still and still + note}</div>",
             "text/plain": "",
         },
         raw=True,

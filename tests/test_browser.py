@@ -8,7 +8,6 @@ import socket
 import subprocess
 import sys
 import time
-import urllib.request
 from pathlib import Path
 
 import pytest
@@ -48,10 +47,9 @@ def until(condition):
     pytest.fail(f"waited {PATIENCE} s in vain")
 
 
-@pytest.fixture(scope="module")
-def server(tmp_path_factory):
-    """Start JupyterLab on copies of the notebooks and return its folder and address."""
-    folder = tmp_path_factory.mktemp("lab")
+@contextlib.contextmanager
+def served(folder, module, *options):
+    """Serve copies of the notebooks from a folder by a Jupyter server; give its address."""
     for notebook in (HOUSE / "notebooks").glob("*.ipynb"):
         shutil.copy(notebook, folder)
     with socket.socket() as free:
@@ -62,28 +60,33 @@ def server(tmp_path_factory):
         for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR",
                      "JUPYTERLAB_SETTINGS_DIR", "JUPYTERLAB_WORKSPACES_DIR")
     }  # fmt: skip
-    command = [
-        sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1",
-        f"--port={port}", f"--IdentityProvider.token={TOKEN}", f"--ServerApp.root_dir={folder}",
-    ]  # fmt: skip
+    command = [sys.executable, "-m", module, "--no-browser", f"--port={port}", *options]
     address = f"http://127.0.0.1:{port}"
 
     def answers():
         assert process.poll() is None, (folder / "log").read_text()
-        try:
-            return urllib.request.urlopen(f"{address}/api?token={TOKEN}", timeout=5)
-        except OSError:
-            return None
+        with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port), 5):
+            return True
+        return False
 
     with (folder / "log").open("w") as log:
         environment = os.environ | private | {"PYTHONPATH": str(HOUSE)}
-        process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=log)
         try:
-            until(answers).close()
+            until(answers)
             yield address
         finally:
             process.terminate()
             process.wait(timeout=PATIENCE)
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("lab")
+    options = ("--allow-root", "--ip=127.0.0.1", f"--IdentityProvider.token={TOKEN}",
+               f"--ServerApp.root_dir={folder}")  # fmt: skip
+    with served(folder, "jupyterlab", *options) as address:
+        yield address
 
 
 @pytest.fixture(scope="module")
@@ -99,24 +102,15 @@ def browser(tmp_path_factory):
 
 
 class Page:
-    """A notebook in JupyterLab."""
+    """A page with an explorer."""
 
-    def __init__(self, browser, server, name):
+    def __init__(self, browser):
         self.browser = browser
-        browser.get(f"{server}/lab/tree/{name}?token={TOKEN}&reset")
-        until(lambda: self.all(".jp-NotebookPanel .jp-Cell"))
-        until(lambda: "Idle" in self.one(".jp-Notebook-ExecutionIndicator").get_attribute(
-            "data-status").title())  # fmt: skip
-        until(self.run_all)
-        until(self.figures)
 
-    def run_all(self):
-        (menu,) = [item for item in self.all("li.lm-MenuBar-item") if item.text == "Run"]
-        menu.click()
-        for item in self.all(".lm-Menu-item[data-command='runmenu:run-all']"):
-            item.click()
-            return True
-        return False
+    def holds_no_error(self):
+        for kind in ("error", "stderr"):
+            assert not self.all(f"[data-mime-type='application/vnd.jupyter.{kind}']")
+        assert not self.all(".jupyter-widgets-error-widget")
 
     def all(self, selector):
         return self.browser.find_elements("css selector", selector)
@@ -160,14 +154,6 @@ class Page:
         box.send_keys(keys.CONTROL, "a")
         box.send_keys(text, keys.ENTER)
 
-    def text(self):
-        return self.one(".jp-Notebook").text
-
-    def holds_no_error(self):
-        for kind in ("error", "stderr"):
-            assert not self.all(f"[data-mime-type='application/vnd.jupyter.{kind}']")
-        assert not self.all(".jupyter-widgets-error-widget")
-
     def readout(self):
         return self.one(".pierimpact-live").text
 
@@ -179,9 +165,33 @@ class Page:
         return [hashlib.sha256(figure.screenshot_as_png).hexdigest() for figure in self.figures()]
 
 
+class Lesson(Page):
+    """A notebook in JupyterLab, all of it run."""
+
+    def __init__(self, browser, server, name):
+        super().__init__(browser)
+        browser.get(f"{server}/lab/tree/{name}.ipynb?token={TOKEN}&reset")
+        until(lambda: self.all(".jp-NotebookPanel .jp-Cell"))
+        until(lambda: "Idle" in self.one(".jp-Notebook-ExecutionIndicator").get_attribute(
+            "data-status").title())  # fmt: skip
+        until(self.run_all)
+        until(self.figures)
+
+    def run_all(self):
+        (menu,) = [item for item in self.all("li.lm-MenuBar-item") if item.text == "Run"]
+        menu.click()
+        for item in self.all(".lm-Menu-item[data-command='runmenu:run-all']"):
+            item.click()
+            return True
+        return False
+
+    def text(self):
+        return self.one(".jp-Notebook").text
+
+
 @pytest.fixture(scope="module")
 def page(browser, server):
-    return Page(browser, server, "explorer.ipynb")
+    return Lesson(browser, server, "explorer")
 
 
 def force(value):
@@ -259,7 +269,7 @@ def test_no_error_reached_the_notebook(page):
 
 @pytest.mark.parametrize("name", LESSONS)
 def test_a_lesson_runs_and_its_exercises_answer(browser, server, name):
-    lesson = Page(browser, server, f"{name}.ipynb")
+    lesson = Lesson(browser, server, name)
     questions = QUESTIONS[name.partition("_")[2]]
     until(lambda: f"0 of {len(questions)} solved" in lesson.text())
     question = next(question for question in questions if not question.choices)
@@ -273,3 +283,17 @@ def test_a_lesson_runs_and_its_exercises_answer(browser, server, name):
     until(lambda: f"1 of {len(questions)} solved" in lesson.text())
     assert "solved after 2 tries" in lesson.text()
     lesson.holds_no_error()
+
+
+def test_voila_serves_the_explorer_without_code(browser, tmp_path):
+    pytest.importorskip("voila")
+    with served(tmp_path, "voila", "--Voila.ip=127.0.0.1", "explorer.ipynb") as address:
+        browser.get(address)
+        app = Page(browser)
+        until(app.figures)
+        assert not app.all(".jp-CodeCell .jp-InputArea-editor")
+        assert not app.one(".pierimpact-still").is_displayed()
+        app.type("Speed V", "70 km/h")
+        history = Scenario(speed=70.0 / 3.6).strike.history
+        until(lambda: force(history.cargo_peak.reaction) in app.readout())
+        app.holds_no_error()

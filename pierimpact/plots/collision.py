@@ -84,7 +84,7 @@ def draw_forces(axes: Axes, history: CollisionHistory) -> None:
     """Draw the forces of both springs and the reaction, with the regimes and the peaks."""
     time = 1e3 * history.time
     forces = [1e-6 * f for f in (history.engine_force, history.body_force, history.reaction)]
-    top = round_up(1.15 * max(float(force.max()) for force in forces))
+    top = round_up(1.22 * max(float(force.max()) for force in forces))
     # Downwards in quarters of the height above, which seldom change.
     depth = math.ceil(-4.0 * min(float(forces[-1].min()), 0.0) / top)
     axes.set(xlim=_span(history), ylim=(-0.25 * depth * top, top))

@@ -150,7 +150,10 @@ class CollisionExplorer(Explorer):
             if peak is not None:
                 self.show(peak.time)
                 self.redraw()
-                pictures = self._picture.still(f"At the {body} peak. {words}", "320px") + pictures
+                pictures = (
+                    self._picture.still(f"At the {body} peak. {words}", "max(40%, 320px)")
+                    + pictures
+                )
         others = ("readout", *self._charts)
         return pictures + "".join(self.views[name].still(words) for name in others)
 

@@ -21,6 +21,8 @@ from PIL import Image
 
 from pierimpact.plots.style import PIXEL, SCREEN
 
+#: Width beside the controls on an ordinary screen [px].
+ROOM = 890.0
 #: Dots of the picture a pixel of the page: sharp on screens of high density too.
 DENSITY = 2.0
 _DOTS_PER_INCH = DENSITY * 72.0 / PIXEL
@@ -76,7 +78,9 @@ class LiveFigure:
         self._limits: tuple[float, ...] = ()
         self._grounds: list[Any] = [None for _ in layers]  # what each layer is drawn on
         self._palette: Image.Image | None = None
-        self._basis, self._widest = (f"{share * size[0]:.0f}px" for share in (0.7, 1.4))
+        # Not so small that letters cannot be read, and no more in a row than belong together.
+        self._basis = f"max({80.0 * size[0] / ROOM:.0f}%, {0.8 * size[0]:.0f}px)"
+        self._widest = f"{1.4 * size[0]:.0f}px"
         self.widget = ipw.Image(
             format="png",
             layout=ipw.Layout(
