@@ -16,6 +16,7 @@ from pierimpact.report import (
     Report,
     ReportError,
     folder_for,
+    import_libraries,
     put_in_place,
     reason_of,
     stages,
@@ -51,6 +52,7 @@ class Batch(NamedTuple):
     reports: list[Report]
     failures: list[Failure]
     summary: Summary | None
+    summary_failure: str = ""  #: one line that says why there is no summary where one was due
 
 
 def find_cases(paths: Iterable[str | Path]) -> list[Path]:
@@ -89,8 +91,9 @@ def write_reports(
 ) -> Batch:
     """Write the report of each case; where there are more than one, a summary of them too.
 
-    A case that fails stops none of the others. The summary is summary.html, summary.pdf and
-    summary.csv; there is none if no case has a report.
+    A case that fails stops none of the others, and a summary that fails takes none of the reports
+    with it. The summary is summary.html, summary.pdf and summary.csv; there is none if no case
+    has a report.
 
     Parameters
     ----------
@@ -105,8 +108,6 @@ def write_reports(
     ------
     OutputError
         When the folder cannot be written to.
-    ReportError
-        When the summary cannot be made; the reports are there.
     KeyboardInterrupt
         When interrupted; it says how many reports were written, each of them whole.
     """
@@ -114,13 +115,12 @@ def write_reports(
     results = _write_all(cases, output_dir, progress)
     reports = [result for result in results if isinstance(result, Report)]
     failures = [result for result in results if isinstance(result, Failure)]
-    summary = None
-    if len(cases) > 1 and reports:
-        try:
-            summary = _write_summary(results, output_dir)
-        except Exception as error:
-            raise ReportError(f"the summary: {reason_of(error)}") from error
-    return Batch(reports, failures, summary)
+    if len(cases) == 1 or not reports:
+        return Batch(reports, failures, None)
+    try:
+        return Batch(reports, failures, _write_summary(results, output_dir))
+    except Exception as error:
+        return Batch(reports, failures, None, f"the summary: {_line(reason_of(error))}")
 
 
 def _refuse_same_names(cases: Sequence[Path]) -> None:
@@ -174,6 +174,8 @@ def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[
 
     futures: list[Future[Report | Failure]] = []
     several = len(cases) > 1
+    if several:
+        import_libraries()
     with (
         tqdm(
             total=len(cases) * stages(),

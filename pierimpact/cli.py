@@ -90,16 +90,11 @@ def _teach(app: bool, folder: str, browser: bool) -> int:
 def _report(paths: Sequence[str], output: str) -> int:
     try:
         from pierimpact.batch import find_cases, write_reports
-        from pierimpact.report import ReportError
     except ModuleNotFoundError as error:
         _complain(f"reports need {error.name}: pip install 'pierimpact[report]'")
         return 1
     cases = find_cases(paths)
-    try:
-        batch = write_reports(cases, output)
-    except ReportError as error:
-        _complain(error)
-        return 1
+    batch = write_reports(cases, output)
     for report in batch.reports:
         print(report.notebook, report.html, report.pdf, sep="\n")
     if batch.summary:
@@ -112,6 +107,9 @@ def _report(paths: Sequence[str], output: str) -> int:
         _complain(failure.reason)
     if len(cases) > 1 and batch.failures:
         _complain(f"{len(batch.failures)} of {len(cases)} cases have no report")
+    if batch.summary_failure:
+        _complain(batch.summary_failure)
+        return 1
     if not batch.failures:
         return 0
     return 2 if all(failure.bad_input for failure in batch.failures) else 1

@@ -1,7 +1,7 @@
 """The collision by the coupled mass-spring-damper (CMSD) model."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -89,6 +89,7 @@ def peak_reactions(
     pier_stiffness: ArrayLike,
     damping_ratio: ArrayLike,
     speed: ArrayLike,
+    progress: Callable[[int], object] = lambda count: None,
 ) -> PeakReactions:
     """Return the peak reactions of many collisions.
 
@@ -105,6 +106,9 @@ def peak_reactions(
         Fraction of critical damping, from 0 to below 1 [-].
     speed : array_like
         Speeds at first touch [m/s].
+    progress : callable, optional
+        Called now and then with the number of collisions done since the last call; the `update`
+        of a progress bar of `tqdm`, say.
 
     Returns
     -------
@@ -117,7 +121,8 @@ def peak_reactions(
         When a value is out of range or the shapes do not broadcast.
     """
     shape, parts = collisions(truck, pier_mass, pier_stiffness, damping_ratio, speed)
-    outcomes = follow_all((case for _, case in parts), math.prod(shape))
+    cases = (case for _, case in parts)
+    outcomes = follow_all(cases, math.prod(shape), progress=progress)
     engine_contact, cargo_contact, engine, engine_time, cargo, cargo_time = (
         outcome.reshape(shape) for outcome in outcomes
     )

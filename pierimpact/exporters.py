@@ -189,7 +189,7 @@ def _numbered(page: str) -> str:
         page,
     )
     return re.sub(
-        r'(<a href="#([^"]+)">)(.*?)</a>',
+        r'(<a\s+href="#([^"]+)">)(.*?)</a>',
         lambda link: (
             f"{link[1]}{link[3]}&nbsp;{numbers[link[2]]}</a>" if link[2] in numbers else link[0]
         ),
@@ -258,7 +258,10 @@ class SheetPDFExporter(_SheetExporter):
 
     def _formula(self, match: re.Match[str], converted: str) -> str:
         kind = 'block: true, numbering: "(1)", ' if match[1] else ""
-        return f"#math.equation({kind}alt: {match[2]}, {converted}.body)"
+        body = f"{converted}.body"
+        if match[2].startswith('"\\\\displaystyle'):  # which pandoc drops
+            body = f"math.display({body})"
+        return f"#math.equation({kind}alt: {match[2]}, {body})"
 
 
 def _typst_text(literal: str) -> str:

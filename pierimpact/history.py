@@ -19,6 +19,7 @@ from pierimpact.motion import (
     coasted,
     expand,
     longest_step,
+    motions,
     ringing,
 )
 from pierimpact.motion.series import TERMS
@@ -305,7 +306,9 @@ class CollisionHistory:
         starts = Position(*np.array([state.at for state, _, _ in self._pieces]).T)
         laws = Law(*np.array([law for _, law, _ in self._pieces], dtype=float).T)
         lengths = self._lengths[:, 0]
-        return tuple(terms.T for terms in expand(laws, starts, lengths, TERMS, ARRAYS))
+        return tuple(
+            terms.T for terms in expand(laws, motions(laws, starts), lengths, TERMS, ARRAYS)
+        )
 
     def _column(self, value: Callable[[State, Law], float]) -> Array:
         """Return one value a piece, shape (pieces, 1)."""

@@ -3,6 +3,7 @@
 import contextlib
 import datetime
 import json
+import logging
 import sys
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
@@ -15,10 +16,13 @@ from pierimpact.casefile import Case, case_values, file_hash, read_case
 from pierimpact.checks import InputError
 
 _PACKAGE = Path(__file__).parent
-# Lets the kernel, which starts in another folder, import this very package.
-_IMPORTABLE_PACKAGE = (
-    f"--IPKernelApp.exec_lines=import sys; sys.path.insert(0, {str(_PACKAGE.parent)!r})"
-)
+_EXPORTERS = "pierimpact.exporters"
+_KERNEL_ARGUMENTS = [
+    # Lets the kernel, which starts in another folder, import this very package.
+    f"--IPKernelApp.exec_lines=import sys; sys.path.insert(0, {str(_PACKAGE.parent)!r})",
+    # What goes wrong in a cell is told by the cell; that it is interrupted at its end, by none.
+    "--log-level=CRITICAL",
+]
 
 
 class ReportError(RuntimeError):
@@ -141,6 +145,24 @@ def _parameters(case_path: Path) -> dict[str, Any]:
     }
 
 
+def import_libraries() -> None:
+    """Import what takes a while to import, all of it.
+
+    A single report imports the exporters while its kernel works; before several are written side
+    by side, one thread imports it all, and no other meets a module that is half imported.
+    """
+    _import_papermill()
+    import_module(_EXPORTERS)
+
+
+def _import_papermill() -> Any:
+    # What goes wrong is raised, and told once.
+    logging.getLogger("papermill").addHandler(logging.NullHandler())
+    logging.getLogger("papermill").propagate = False
+    with _without_web_address_grammar():
+        return import_module("papermill")
+
+
 def _execute(
     parameters: dict[str, Any], folder: Path, output: Path, on_stage: Callable[[], object]
 ) -> Any:
@@ -149,28 +171,44 @@ def _execute(
         papermill = import_module("papermill")
         config = import_module("traitlets.config").Config()
     config.KernelManager.transport_encryption = "auto"  # or else the kernel prints a warning
-    # The exporters take a while to import: that is done while the kernel works.
-    with ThreadPoolExecutor(1) as executor:
-        executor.submit(import_module, "pierimpact.exporters")
+    started = False
+
+    def on_cell_executed(**_: object) -> None:
+        nonlocal started
+        started = True
+        on_stage()
+
+    def execute() -> Any:
         return papermill.execute_notebook(
             report_notebook(),
             output,
             parameters,
             # Papermill's own cwd is that of the process, which other reports share.
             resources={"metadata": {"path": str(folder)}},
-            extra_arguments=[_IMPORTABLE_PACKAGE],
+            extra_arguments=_KERNEL_ARGUMENTS,
             kernel_name="python3",
             progress_bar=False,
             request_save_on_cell_execute=False,
             shutdown_kernel="immediate",  # it has nothing to put away
             config=config,
-            on_cell_executed=lambda **_: on_stage(),
+            on_cell_executed=on_cell_executed,
         )
+
+    # The exporters take a while to import: that is done while the kernel works.
+    with ThreadPoolExecutor(1) as executor:
+        executor.submit(import_module, _EXPORTERS)
+        try:
+            return execute()
+        except RuntimeError:
+            if started:
+                raise
+            # Somebody else may have taken the ports chosen for the kernel before it had them.
+            return execute()
 
 
 def _convert(notebook: Any, files: dict[str, Path], on_stage: Callable[[], object]) -> list[str]:
     """Write the executed notebook as HTML and as PDF; return the warnings."""
-    exporters = import_module("pierimpact.exporters")
+    exporters = import_module(_EXPORTERS)
 
     def write_html() -> None:
         page, _ = exporters.SheetHTMLExporter().from_notebook_node(notebook)

@@ -247,9 +247,11 @@ def printed(value: float, quantity: str, system: str, *, given: bool = False) ->
     system : {"SI", "US"}
         Units to print in.
     given : bool, optional
-        Whether it is an input, and prints without zeros that nobody typed.
+        Whether it is an input: five figures, which all that follows builds on, but no zeros that
+        nobody typed.
     """
-    text = rounded(value / unit_size(quantity, system), QUANTITIES[quantity].digits)
+    digits = 5 if given else QUANTITIES[quantity].digits
+    text = rounded(value / unit_size(quantity, system), digits)
     if given and "." in text and "×" not in text:
         text = text.rstrip("0").rstrip(".")
     return Printed(text, unit_of(quantity, system))

@@ -15,8 +15,9 @@ from pierimpact.design.procedure import LEVELS
 from pierimpact.motion import Collision, take
 from pierimpact.plots import validation as spectrum_figures
 from pierimpact.reduction import exact_amplification
-from pierimpact.sheet.blocks import Block, Column, Figure, Table
+from pierimpact.sheet.blocks import Block
 from pierimpact.sheet.markup import Inline
+from pierimpact.sheet.numbered import Column, Figure, Table
 from pierimpact.spectra import cargo_spectrum, engine_spectrum
 from pierimpact.study import (
     FOLLOWED,

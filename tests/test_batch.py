@@ -295,6 +295,21 @@ def test_units_of_the_summary(tmp_path, systems):
     assert kinds == {"force": 4, "mass": 2, "speed": 2, "length": 2}
 
 
+@pytest.mark.parametrize(("units", "words"), [("SI", "117 km/h"), ("US", "72.7 mph")])
+def test_the_summary_says_what_is_outside_the_study(tmp_path, units, words):
+    case = write_case(tmp_path / "fast.yaml", speed="117 km/h", units=units)
+    inside = write_case(tmp_path / "inside.yaml", units=units)
+    rows = [Row(path.stem, calculate(read_case(path)), []) for path in (case, inside)]
+    page = "".join(block.to_html() for block in summary_blocks(rows))
+    remarks = [row["remarks"] for row in csv.DictReader(io.StringIO(summary_csv(rows), newline=""))]
+    assert (
+        re.search(r"speed [\d.]+ (km/h|mph) outside the studied", remarks[0])[1] == words.split()[1]
+    )
+    assert words in remarks[0]
+    assert remarks[0] in html.unescape(page)
+    assert "outside" not in remarks[1]
+
+
 def test_a_project_of_their_own_is_a_column(tmp_path):
     rows = []
     for name, project in (("a", "One"), ("b", "Two"), ("c", "Two")):
@@ -351,7 +366,7 @@ def test_one_case_has_no_summary(tmp_path, monkeypatch):
     report = Report(Path("a.ipynb"), Path("a.html"), Path("a.pdf"), [], read_case(case))
     monkeypatch.setattr(batch_module, "write_report", lambda case, output, on_stage: report)
     result = write_reports([case], tmp_path / "out", progress=False)
-    assert result == ([report], [], None)
+    assert result == ([report], [], None, "")
 
 
 def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
@@ -367,7 +382,9 @@ def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("pierimpact.sheet.summary_table.summary_csv", fail)
     output = tmp_path / "out"
     assert cli.main(["report", *map(str, cases), "--output", str(output)]) == 1
-    assert capsys.readouterr().err == "pierimpact: the summary: ValueError: no CSV\n"
+    lines = capsys.readouterr()
+    assert lines.out.splitlines() == ["x.ipynb", "x.html", "x.pdf"] * 2
+    assert lines.err == "pierimpact: the summary: ValueError: no CSV\n"
     assert list(output.iterdir()) == []
 
 

@@ -86,6 +86,14 @@ def test_plain_numbers_give_arrays_without_axes():
     assert_same(fields(peaks), [values[0] for values in fields(one)])
 
 
+def test_progress_counts_every_collision_once():
+    calls = []
+    peak_reactions(TRUCK, 8e3, np.geomspace(1e6, 1e10, 5000), 0.05, 22.2, progress=calls.append)
+    assert sum(calls) == 5000
+    assert len(calls) > 5
+    assert min(calls) > 0
+
+
 def test_no_collisions_give_no_peaks():
     peaks = peak_reactions(TRUCK, [], 284e6, 0.05, 22.2)
     assert {values.shape for values in fields(peaks)} == {(0,)}

@@ -286,6 +286,26 @@ def test_numbers_of_equations_tables_and_figures(made):
     assert f"({len(equations) + 1})" not in sheet
 
 
+def test_every_place_that_is_named_has_its_number(made):
+    text = made[1].html.read_text("utf-8")
+    anchors = set(re.findall(r' id="([^"]+)"', text))
+    links = re.findall(r'<a\s+href="#([^"]+)">(.*?)</a>', text)
+    assert {anchor for anchor, _ in links} <= anchors
+    named = [words for anchor, words in links if anchor.startswith(("tab-", "fig-", "eq-"))]
+    assert len(named) > 80
+    for words in named:
+        assert re.fullmatch(r"(Table|Figure)&nbsp;\d+|Eq\.&nbsp;\(\d+\)", words)
+    sheet = " ".join(pdf_text(made[1].pdf))
+    assert not re.search(r"(those of|values of|and) Table[^\s\d]", sheet)
+
+
+def test_us_reports_print_no_metric_unit(us):
+    text = Text(us[1].html.read_text("utf-8")).text
+    own = text.replace("Generic 8 t single-unit truck", "")  # as the truck's file describes it
+    metric = r"(?<![\w.])\d[\d.\u202f]*\s(kN|MN|GPa|m|mm|kg|km/h|t|kN·m|MN/m|kg/m³)(?![\w/·-])"
+    assert [match[0] for match in re.finditer(metric, own)] == []
+
+
 def test_figures_are_vectors_with_words_for_them(made):
     page = Text(made[1].html.read_text("utf-8"))
     images = [attributes for tag, attributes in page.tags if tag == "img"]
@@ -368,6 +388,37 @@ def test_a_failing_notebook_is_kept_and_named(si, tmp_path, monkeypatch):
     assert sorted(before.parent.iterdir()) == [kept, before]
     assert before.read_bytes() == b"of the last time"
     assert nbformat.read(kept, 4).cells[-1].outputs[0].ename == "ValueError"
+
+
+@pytest.mark.parametrize("deaths", [1, 2])
+def test_a_kernel_that_does_not_start_is_started_once_more(si, tmp_path, monkeypatch, deaths):
+    execute, calls = papermill.execute_notebook, []
+
+    def dies(*arguments, **options):
+        calls.append(arguments)
+        if len(calls) <= deaths:
+            raise RuntimeError("Kernel died before replying to kernel_info")
+        return execute(*arguments, **options)
+
+    monkeypatch.setattr(papermill, "execute_notebook", dies)
+    if deaths == 1:
+        write_report(si[0], tmp_path)
+    else:
+        with pytest.raises(ReportError, match=r"^tti-column\.yaml: RuntimeError: Kernel died"):
+            write_report(si[0], tmp_path)
+    assert len(calls) == 2
+    assert (tmp_path / "tti-column.pdf").exists() == (deaths == 1)
+
+
+def test_a_kernel_that_dies_at_work_is_not_started_again(si, tmp_path, monkeypatch):
+    notebook = nbformat.read(report_notebook(), 4)
+    notebook.cells[1].source = "import os; os._exit(1)"
+    deadly = tmp_path / "deadly.ipynb"
+    nbformat.write(notebook, deadly)
+    monkeypatch.setattr(report_module, "report_notebook", lambda: deadly)
+    with pytest.raises(ReportError, match="Kernel died"):
+        write_report(si[0], tmp_path / "out")
+    assert not (tmp_path / "out" / "tti-column.pdf").exists()
 
 
 def test_a_failing_conversion_leaves_no_half_report(si, tmp_path, monkeypatch):

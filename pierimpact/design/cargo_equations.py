@@ -15,7 +15,7 @@ def cargo_by_hand(values: dict[str, float]) -> dict[str, Equation]:
             "time of cargo contact", "t_2", closing_time("cargo_deceleration", "<d2>"), "s"
         ),
         "cargo_speed": Equation(
-            "speed of the cargo at contact; 0: it stops before",
+            "speed of the cargo at $t_2$; zero if it stops before",
             "v_2",
             speed_left("cargo_deceleration", "<d2>"),
             "m/s",
@@ -43,7 +43,7 @@ def cargo_by_hand(values: dict[str, float]) -> dict[str, Equation]:
                 "N",
             ),
             "ringing_share": Equation(
-                "share of it that counts",
+                "share of this swing that counts",
                 r"\eta",
                 rf"\frac{{{RINGING_SHARE}}}{{1 + ({RINGING_BETA} / <cargo_beta>)^2}}",
                 "-",
@@ -68,7 +68,7 @@ def cargo_contact(values: dict[str, float]) -> dict[str, Equation]:
             "s",
         ),
         "cargo_first_x": Equation(
-            "displacement of the pier then",
+            "displacement of the pier at $t_2'$",
             "x_2'",
             before_cargo("cargo_first_time", values)[0],
             "m",
@@ -80,13 +80,16 @@ def cargo_contact(values: dict[str, float]) -> dict[str, Equation]:
             "s",
         ),
         "cargo_pier_x": Equation(
-            "displacement of the pier then", "x_2", before_cargo("cargo_time", values)[0], "m"
+            "displacement of the pier at $t_2$", "x_2", before_cargo("cargo_time", values)[0], "m"
         ),
         "cargo_pier_v": Equation(
-            "velocity of the pier then", r"\dot x_2", before_cargo("cargo_time", values)[1], "m/s"
+            "velocity of the pier at $t_2$",
+            r"\dot x_2",
+            before_cargo("cargo_time", values)[1],
+            "m/s",
         ),
         "cargo_speed": Equation(
-            "speed of the cargo at contact; 0: it stops before",
+            "speed of the cargo at $t_2$; zero if it stops before",
             "v_2",
             speed_left("cargo_deceleration", "<d2> + <cargo_pier_x>"),
             "m/s",
@@ -97,7 +100,7 @@ def cargo_contact(values: dict[str, float]) -> dict[str, Equation]:
 def _mode(mode: str, omega: str, body: str) -> dict[str, Equation]:
     """Return the equations of the slow or the fast mode."""
     s = rf"\mathrm{{{mode[0]}}}"
-    share = rf"(1 + <cargo_mu> <x> <{mode}_body>^2)"
+    share = rf"1 + <cargo_mu> <x> <{mode}_body>^2"
     joined = "(<cargo_pier_x> - <rest> + <cargo_holding> / <k2>)"
     return {
         f"{mode}_{name}": Equation(f"{mode} mode: {meaning}", rf"{symbol}_{s}", formula, unit)
@@ -117,14 +120,15 @@ def _mode(mode: str, omega: str, body: str) -> dict[str, Equation]:
                 "sine",
                 "sine part",
                 "b",
-                rf"\frac{{\frac{{<cargo_pier_v> + <cargo_mu> <x> <{mode}_body> <x> <cargo_speed>}}"
-                rf"{{{share}}} + <{mode}_sigma> <x> <{mode}_cosine>}}{{<{mode}_omega>}}",
+                rf"\frac{{1}}{{<{mode}_omega>}} <x> \left[\frac{{<cargo_pier_v>"
+                rf" + <cargo_mu> <x> <{mode}_body> <x> <cargo_speed>}}{{{share}}}"
+                rf" + <{mode}_sigma> <x> <{mode}_cosine>\right]",
                 "m",
             ),
             ("amplitude", "amplitude", "A", rf"\sqrt{{<{mode}_cosine>^2 + <{mode}_sine>^2}}", "m"),
             (
                 "phase",
-                "phase, the angle of the point (a, b)",
+                f"phase, the angle of the point $(a_{s}, b_{s})$",
                 r"\varphi",
                 rf"\operatorname{{atan2}}(<{mode}_sine>, <{mode}_cosine>)",
                 "rad",
@@ -156,7 +160,7 @@ def cargo_modes() -> dict[str, Equation]:
     return {
         **{name: ratios[name] for name in ("cargo_beta", "cargo_mu", "cargo_e")},
         "rest": Equation(
-            "rest of pier and body joined",
+            "displacement at which pier and body joined would rest",
             "x_0",
             r"\frac{<body_push> - <cargo_holding>}{<kp>}",
             "m",
@@ -185,7 +189,7 @@ def cargo_modes() -> dict[str, Equation]:
             "s",
         ),
         "fast_share": Equation(
-            "weight of the fast mode in the crest of both",
+            "weight of the fast mode in the crest of both modes",
             "w",
             r"\frac{<fast_amplitude> <x> <fast_omega>^2"
             r" <x> e^{-(<fast_sigma> - <slow_sigma>) <x> <turn_time>}}"
@@ -195,14 +199,14 @@ def cargo_modes() -> dict[str, Equation]:
             "-",
         ),
         "fast_turns": Equation(
-            "whole turns of the fast mode before",
+            "whole turns of the fast mode before $t_\\mathrm{u}$",
             "n",
             r"\left\lfloor \frac{<fast_omega> <x> <turn_time> - <fast_crest>}{2 \pi}"
             r" \right\rfloor",
             "-",
         ),
         "early_time": Equation(
-            "time after contact of the crest of both before",
+            "time after contact of the last crest of both modes before $t_\\mathrm{u}$",
             r"t_\mathrm{a}",
             r"\max(<turn_time> + <fast_share> <x> ("
             + fast_crest.replace("TURNS", "<fast_turns>")
@@ -210,7 +214,7 @@ def cargo_modes() -> dict[str, Equation]:
             "s",
         ),
         "late_time": Equation(
-            "time after contact of the crest of both after",
+            "time after contact of the first crest of both modes after $t_\\mathrm{u}$",
             r"t_\mathrm{b}",
             "<turn_time> + <fast_share> <x> ("
             + fast_crest.replace("TURNS", "(<fast_turns> + 1)")
@@ -218,19 +222,19 @@ def cargo_modes() -> dict[str, Equation]:
             "s",
         ),
         "turn_x": Equation(
-            "displacement of the pier as the spring turns",
+            "displacement of the pier at $t_\\mathrm{u}$, as the spring turns",
             r"x_\mathrm{u}",
             _displacement("<turn_time>"),
             "m",
         ),
         "early_x": Equation(
-            "displacement at the earlier crest",
+            "displacement of the pier at $t_\\mathrm{a}$",
             r"x_\mathrm{a}",
             _displacement("<early_time>"),
             "m",
         ),
         "late_x": Equation(
-            "displacement at the later crest; the spring unloads on $k_{\\mathrm{u}2}$",
+            "displacement of the pier at $t_\\mathrm{b}$; the spring unloads on $k_{\\mathrm{u}2}$",
             r"x_\mathrm{b}",
             r"<turn_x> + \frac{1 + <cargo_e>}{2} <x> \left("
             + _displacement("<late_time>")

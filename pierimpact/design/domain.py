@@ -67,15 +67,33 @@ def values(case: Collision) -> dict[str, Any]:
     return found
 
 
-def warnings(case: Collision) -> tuple[str, ...]:
-    """Return a sentence for each value of one collision that is outside the studied domain."""
+class Outside(NamedTuple):
+    """A value outside the studied domain, and the bounds that it does not keep, in SI."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+
+
+def outside(case: Collision) -> tuple[Outside, ...]:
+    """Return the values of one collision that are outside the studied domain."""
     found = values(case)
     # A bound met but for round-off is met.
     return tuple(
-        f"{name} {found[name] / size:.4g} {unit} is outside the studied {low:g} to {high:g} {unit}:"
-        f" the design formulas were not checked there"
-        for name, (low, high, unit, size) in DOMAIN.items()
-        if not low * (1.0 - 1e-9) <= found[name] / size <= high * (1.0 + 1e-9)
+        Outside(name, float(found[name]), low, high)
+        for name, (low, high) in ((name, bounds(name)) for name in DOMAIN)
+        if not low * (1.0 - 1e-9) <= found[name] <= high * (1.0 + 1e-9)
+    )
+
+
+def warnings(case: Collision) -> tuple[str, ...]:
+    """Return a sentence for each value of one collision that is outside the studied domain."""
+    return tuple(
+        f"{name} {value / DOMAIN[name].size:.4g} {DOMAIN[name].unit} is outside the studied "
+        f"{DOMAIN[name].low:g} to {DOMAIN[name].high:g} {DOMAIN[name].unit}: the design formulas "
+        "were not checked there"
+        for name, value, _, _ in outside(case)
     )
 
 

@@ -62,7 +62,7 @@ def engine_contact(hand: bool) -> dict[str, Equation]:
                 "s",
             ),
             "engine_first_x": Equation(
-                "displacement of the pier then",
+                "displacement of the pier at $t_1'$",
                 "x_1'",
                 pushed("engine_first_time")[0],
                 "m",
@@ -76,16 +76,16 @@ def engine_contact(hand: bool) -> dict[str, Equation]:
             "s",
         ),
         "engine_pier_x": Equation(
-            "displacement of the pier then", "x_1", pushed("engine_time")[0], "m"
+            "displacement of the pier at $t_1$", "x_1", pushed("engine_time")[0], "m"
         ),
         "engine_pier_v": Equation(
-            "velocity of the pier then",
+            "velocity of the pier at $t_1$",
             r"\dot x_1",
             pushed("engine_time")[1],
             "m/s",
         ),
         "engine_speed": Equation(
-            "speed of the engine at contact; 0: it stops before",
+            "speed of the engine at $t_1$; zero if it stops before",
             "v_1",
             speed_left(first, "<d1>" if hand else "<d1> + <engine_pier_x>"),
             "m/s",
@@ -105,7 +105,7 @@ def engine_blow(values: dict[str, float], hand: bool) -> dict[str, Equation]:
         struck = rf"\max({struck}, <overshoot>)"
     return spectrum("engine", 1) | {
         "engine_closing": Equation(
-            "closing speed of engine and pier",
+            "closing speed of engine and pier at contact",
             "u_1",
             r"\max(<engine_speed> - <engine_pier_v>, 0)",
             "m/s",
@@ -135,14 +135,21 @@ def ringing(values: dict[str, float]) -> dict[str, Equation]:
             "ringing_time": Equation(
                 "time when the engine stops", r"t_\mathrm{J}", "<V> / <engine_deceleration>", "s"
             ),
-            "ringing_x": Equation("displacement from rest then", r"x_\mathrm{J}", x, "m"),
-            "ringing_v": Equation("velocity then", r"\dot x_\mathrm{J}", v, "m/s"),
+            "ringing_x": Equation(
+                "displacement of the pier at $t_\\mathrm{J}$, from its rest under $Q$",
+                r"x_\mathrm{J}",
+                x,
+                "m",
+            ),
+            "ringing_v": Equation(
+                "velocity of the pier at $t_\\mathrm{J}$", r"\dot x_\mathrm{J}", v, "m/s"
+            ),
         }
-    e, half = "<engine_e>", r"\frac{\pi}{2}"
-    first = rf"\frac{{1 + {half} <x> {e} + ({half} - 1) <x> {e}^2}}{{1 + {e}}}"
+    e, pi = "<engine_e>", r"\pi"
+    first = rf"\frac{{1 + ({pi} / 2) <x> {e} + ({pi} / 2 - 1) <x> {e}^2}}{{1 + {e}}}"
     second = (
-        rf"\frac{{\pi - 2 + \frac{{\pi^2}}{{4}} <x> {e} + \pi <x> ({half} - 1) <x> {e}^2"
-        rf" + (\frac{{\pi^2}}{{4}} - 2) <x> {e}^3}}{{1 + {e}}}"
+        rf"\frac{{{pi} - 2 + ({pi}^2 / 4) <x> {e} + {pi} <x> ({pi} / 2 - 1) <x> {e}^2"
+        rf" + ({pi}^2 / 4 - 2) <x> {e}^3}}{{1 + {e}}}"
     )
     return {
         "pulse_mass": Equation(
@@ -152,7 +159,7 @@ def ringing(values: dict[str, float]) -> dict[str, Equation]:
             "kg",
         ),
         "pulse_omega": Equation(
-            "its circular frequency",
+            "circular frequency of the blow",
             r"\omega_\mathrm{r}",
             r"\sqrt{<k1> / <pulse_mass>}",
             "rad/s",
@@ -164,13 +171,13 @@ def ringing(values: dict[str, float]) -> dict[str, Equation]:
             "s",
         ),
         "pulse_spread": Equation(
-            "spread of the blow about it",
+            "spread of the blow about its centroid",
             r"\sigma_\mathrm{J}",
             rf"\sqrt{{\frac{{1}}{{<pulse_omega>^2}} <x> {second} - <pulse_centroid>^2}}",
             "s",
         ),
         "impulse": Equation(
-            "impulse of the blow that the pier feels",
+            "impulse of the blow, as far as the pier feels it",
             "J",
             "(1 + <engine_e>) <x> <pulse_mass> <x> <engine_closing>"
             r" <x> e^{-<omega>^2 <x> <pulse_spread>^2 / 2}",
@@ -182,9 +189,14 @@ def ringing(values: dict[str, float]) -> dict[str, Equation]:
             "<engine_time> + <pulse_centroid>",
             "s",
         ),
-        "ringing_x": Equation("displacement from rest then", r"x_\mathrm{J}", x, "m"),
+        "ringing_x": Equation(
+            "displacement of the pier at $t_\\mathrm{J}$, from its rest under $Q$",
+            r"x_\mathrm{J}",
+            x,
+            "m",
+        ),
         "ringing_v": Equation(
-            "velocity after it",
+            "velocity of the pier after the blow",
             r"\dot x_\mathrm{J}",
             v + r" + \frac{<impulse>}{<mp>}",
             "m/s",

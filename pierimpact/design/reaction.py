@@ -72,13 +72,23 @@ class DesignReaction:
     def warnings(self) -> tuple[str, ...]:
         """What the formulas were not checked for, a sentence each; empty within the domain."""
         found = domain.warnings(self.case)
-        gone = self.values.get("ringing_time", self.values["engine_time"])
-        if self.cargo is not None and self.values["cargo_time"] <= gone:
+        if self.overlapping:
             found += (
                 "the cargo meets the pier before the engine lets go: the design formulas take "
                 "one after the other",
             )
         return found
+
+    @property
+    def outside(self) -> tuple[domain.Outside, ...]:
+        """The values that are outside the domain in which the formulas were studied."""
+        return domain.outside(self.case)
+
+    @property
+    def overlapping(self) -> bool:
+        """Whether the cargo meets the pier before the engine lets go."""
+        gone = self.values.get("ringing_time", self.values["engine_time"])
+        return self.cargo is not None and self.values["cargo_time"] <= gone
 
     @property
     def given(self) -> tuple[DesignStep, ...]:

@@ -83,8 +83,8 @@ def spectrum(body: str, i: int) -> dict[str, Equation]:
         f"{body}_S": Equation(
             f"amplification, {body}",
             f"S_{i}",
-            rf"\frac{{1}}{{\sqrt{{\frac{{1}}{{[(1 + {e}) <x> {beta}]^2}}"
-            rf" + \frac{{1 + {mu} / {beta}^2}}{{(1 + {h})^2}}}}}}",
+            rf"\left[\frac{{1}}{{[(1 + {e}) <x> {beta}]^2}}"
+            rf" + \frac{{1 + {mu} / {beta}^2}}{{(1 + {h})^2}}\right]^{{-1/2}}",
             "-",
         ),
     }

@@ -20,7 +20,14 @@ from pierimpact.motion.regimes import (
     start,
 )
 from pierimpact.motion.series import ARRAYS, FLOATS, Ops
-from pierimpact.motion.stepping import OUTCOMES, expand, follow, follow_all, longest_step
+from pierimpact.motion.stepping import (
+    OUTCOMES,
+    expand,
+    follow,
+    follow_all,
+    longest_step,
+    motions,
+)
 
 __all__ = [
     "ARRAYS",
@@ -42,6 +49,7 @@ __all__ = [
     "follow",
     "follow_all",
     "longest_step",
+    "motions",
     "ringing",
     "start",
     "take",

@@ -247,6 +247,9 @@ def rub(
     """Return the friction's direction, whether it sticks, and the rate of δ2, after `event`."""
     at = state.at
     where, negate = ops.where, ops.negate
+    # While it slides on the road, the springs do not concern it.
+    if not ops.some((event >= FORWARD) | state.stuck | case.on_pier):
+        return state.slip, state.stuck, at.u2
     cs, m2 = case.friction_force, case.body.mass
     F1 = law.intercept1 + law.s1 * at.d1
     F2 = law.intercept2 + law.s2 * at.d2

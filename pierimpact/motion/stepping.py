@@ -57,20 +57,21 @@ HOLD = 1e-4  # weighs the holding force, whose round-off is larger by the stiffn
 STEPS = 100_000  # no collision of the studied domain takes a hundredth of these
 
 Motion: TypeAlias = tuple[Real, Real, Real]  # value, rate, second rate
+Motions: TypeAlias = tuple[Motion, Motion, Motion]  # of δ1, δ2 and x_p
 Series: TypeAlias = tuple[Terms, Terms, Terms]  # of δ1, δ2 and x_p
 
 
-def motions(law: Law, at: Position) -> tuple[Motion, Motion, Motion]:
+def motions(law: Law, at: Position) -> Motions:
     """Return δ1, δ2 and x_p, each with its first two rates."""
     a1, a2, ap = accelerations(law, at)
     return (at.d1, at.u1, a1), (at.d2, at.u2, a2), (at.xp, at.vp, ap)
 
 
-def expand(law: Law, at: Position, h: Real, count: int, ops: Ops) -> Series:
+def expand(law: Law, moving: Motions, h: Real, count: int, ops: Ops) -> Series:
     """Return the first `count` terms of δ1, δ2 and x_p over a step `h`."""
     d1, d2, xp = ops.blank(h, count)
     square = h * h
-    for terms, (value, rate, second) in zip((d1, d2, xp), motions(law, at), strict=True):
+    for terms, (value, rate, second) in zip((d1, d2, xp), moving, strict=True):
         terms[0], terms[1], terms[2] = value, rate * h, second * square
     # The equations of motion once more, with the step as the unit of time.
     g1, g2 = law.w1 * law.s1 * square, law.w2 * law.s2 * square
@@ -147,18 +148,16 @@ def watch(case: Collision, state: State, law: Law, ops: Ops) -> list[Watched]:
     return watched
 
 
-def trial_step(case: Collision, state: State, law: Law, watched: list[Watched], ops: Ops) -> Real:
+def trial_step(longest: Real, moving: Motions, watched: list[Watched], ops: Ops) -> Real:
     """Return the longest step, or four times that to where the first watched rate leads."""
-    where = ops.where
-    at = motions(law, state.at)
-    h = longest_step(law, ops)
+    where, h = ops.where, longest
     for _, order, parts, level in watched:
         if order == 2:
             continue
         value, rate = level, 0.0
         for weight, which in parts:
-            value = value + weight * at[which][order]
-            rate = rate + weight * at[which][order + 1]
+            value = value + weight * moving[which][order]
+            rate = rate + weight * moving[which][order + 1]
         nears = (value < 0.0) & (rate * h > -4.0 * value)
         h = where(nears, -4.0 * value / where(nears, rate, 1.0), h)
     return h
@@ -174,10 +173,11 @@ def may_rise(
     """
     where = ops.where
     flagged = []
-    for event, order, parts, level in watched:
-        most = level
+    for quantity in watched:
+        event, order, parts, most = quantity
         if order:
             parts = tuple([(weight / h**order, which) for weight, which in parts])
+            quantity = Watched(event, order, parts, quantity.level)
             for weight, which in parts:
                 most = most + weight * series[which][order] + abs(weight) * spread[which]
         else:
@@ -185,17 +185,18 @@ def may_rise(
                 ahead = weight * series[which][1]
                 most = most + weight * series[which][0] + where(ahead > 0.0, ahead, 0.0)
                 most = most + 0.5 * abs(weight) * spread[which]
-        flagged.append((Watched(event, order, parts, level), most > 0.0))
+        flagged.append((quantity, most > 0.0))
     return flagged
 
 
 def move(case: Collision, state: State, law: Law, ops: Ops) -> tuple[State, Real]:
     """Return the state after one step, at most up to the first change, and the step's length."""
     where = ops.where
-    watched = watch(case, state, law, ops)
-    h = trial_step(case, state, law, watched, ops)
-    count = terms_needed(ops.largest(h / longest_step(law, ops)))
-    series = expand(law, state.at, h, count, ops)
+    watched, moving = watch(case, state, law, ops), motions(law, state.at)
+    longest = longest_step(law, ops)
+    h = trial_step(longest, moving, watched, ops)
+    count = terms_needed(ops.largest(h / longest))
+    series = expand(law, moving, h, count, ops)
     spread = [ops.fixed(END, ops.sizes(terms[2:])) for terms in series]
     flagged = may_rise(watched, series, spread, h, ops)
 
@@ -320,7 +321,10 @@ class Running(NamedTuple):
 
 
 def follow_all(
-    parts: Iterable[Collision], size: int, begin: Callable[[Collision, Ops], State] = start
+    parts: Iterable[Collision],
+    size: int,
+    begin: Callable[[Collision, Ops], State] = start,
+    progress: Callable[[int], object] = lambda count: None,
 ) -> NDArray[np.float64]:
     """Propagate collisions side by side until nothing more can happen in any.
 
@@ -335,6 +339,8 @@ def follow_all(
         Number n of the collisions in all parts.
     begin : callable, optional
         From collisions to the states they start from; first touch unless another is given.
+    progress : callable, optional
+        Called with the number of collisions done since the last call.
 
     Returns
     -------
@@ -362,6 +368,7 @@ def follow_all(
             if steps.max() > STEPS:
                 raise RuntimeError("a collision did not come to an end")
         outcomes[:, place[done]] = [getattr(state, name)[done] for name in OUTCOMES]
+        progress(int(np.count_nonzero(done)))
         running = take(Running(case, state, place, steps), ~done)
         if 2 * len(running.place) < CHUNK:
             more = next(waiting, None)

@@ -91,7 +91,7 @@ def draw_member_forces(forces: MemberForces, system: str) -> str:
     z = forces.z / unit_size("length", system)
     impact = z[1]
     with sheet_figure(
-        6.5, 3.1, left=0.105, right=0.985, bottom=0.15, top=0.9, wspace=0.12
+        6.5, 2.7, left=0.105, right=0.985, bottom=0.09, top=0.91, wspace=0.12
     ) as figure:
         column, *diagrams = figure.subplots(1, 3, sharey=True, width_ratios=[0.7, 1.0, 1.0])
         column.plot([0.0, 0.0], [z[0], z[-1]], color="black", linewidth=3.0)
@@ -167,7 +167,7 @@ def draw_sensitivity(
         ("frequency", "frequency", "Pier frequency"),
     )
     with sheet_figure(
-        6.5, 4.6, left=0.105, right=0.985, bottom=0.1, top=0.97, hspace=0.35, wspace=0.1
+        6.5, 3.9, left=0.105, right=0.985, bottom=0.115, top=0.985, hspace=0.38, wspace=0.1
     ) as figure:
         grid = figure.subplots(2, 2, sharey=True)
         for axes, (name, quantity, words) in zip(grid.flat, panels, strict=True):
@@ -179,6 +179,8 @@ def draw_sensitivity(
             axes.set_xlim(float(variation.values[0]) / size, float(variation.values[-1]) / size)
             if name == "frequency":
                 logarithmic(axes)
+            else:  # the last number would run into the first of the panel beside it
+                axes.locator_params(axis="x", prune="upper")
             axes.grid(axis="y", color="#e2e6e9", linewidth=0.6)
         grid[0, 0].set_ylim(bottom=0.0)
         for axes in grid[:, 0]:

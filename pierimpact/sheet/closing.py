@@ -1,35 +1,80 @@
 """The last pages: nomenclature, and what the sheet was made from."""
 
 import platform
+import re
+from collections.abc import Iterator
 
 import numpy as np
 
 import pierimpact
 from pierimpact.calculation import Calculation
-from pierimpact.sheet.blocks import Block, Column, Nomenclature, Table
+from pierimpact.sheet import pier_steps, shape_steps
+from pierimpact.sheet.blocks import Block, Nomenclature
 from pierimpact.sheet.design_steps import symbols_of_procedure
 from pierimpact.sheet.input_tables import STATUS_WORDS, symbols_of_inputs
-from pierimpact.sheet.markup import Code, Inline, Tex
-from pierimpact.sheet.pier_steps import symbols_of_pier
+from pierimpact.sheet.markup import Code, Inline, Ref, Tex, in_a_sentence
+from pierimpact.sheet.model_steps import symbols_of_model
+from pierimpact.sheet.numbered import Column, Table
 from pierimpact.units import rounded
 
-_REACTIONS = (
-    ("R", "design reaction"),
-    (r"R_\mathrm{D}", "reaction of the design procedure"),
-    (r"R_\mathrm{M}", "governing peak of the full model"),
-    (r"x_\mathrm{p}", "displacement of the pier at the impact height"),
-    ("z", "height above the base"),
-    (r"\varphi", "shape function"),
+# Symbols that no table and no step introduces, and where they stand.
+_OTHERS = (
+    ("R", "design reaction", "eq-design-reaction"),
+    (r"R_\mathrm{D}", "reaction of the design procedure", "tab-check"),
+    (r"R_\mathrm{M}", "governing peak of the full model", "tab-check"),
+    (r"V_\mathrm{max}", "largest shear", "tab-members"),
+    (r"M_\mathrm{max}", "largest moment", "tab-members"),
+    ("z", "height above the base", "tab-shape"),
+    ("s", "distance from the base or from the top, over the height of the column", "tab-shape"),
+    (r"\varphi", "shape function", "tab-shape"),
+)
+# The Greek alphabet, as LaTeX has it.
+_GREEK = (
+    *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa"),
+    *("lambda", "mu", "nu", "xi", "omicron", "pi", "rho", "sigma", "tau", "upsilon", "varphi"),
+    *("chi", "psi", "omega"),
 )
 
 
 def nomenclature(calculation: Calculation) -> Block:
-    """Return every symbol of the sheet and what it stands for."""
-    entries: dict[str, Inline] = dict(_REACTIONS)
-    for symbols in (symbols_of_inputs, symbols_of_pier, symbols_of_procedure):
-        for symbol, meaning in symbols(calculation):
-            entries.setdefault(symbol.source, meaning)
-    return Nomenclature([(Tex(symbol), meaning) for symbol, meaning in entries.items()])
+    """Return every symbol of the sheet, what it stands for and where it comes from, by alphabet."""
+    entries: dict[str, tuple[Inline, str]] = {}
+    for symbol, meaning, label in (
+        *_OTHERS,
+        *symbols_of_inputs(calculation),
+        *_symbols_of_steps(calculation),
+        *symbols_of_model(),
+        *symbols_of_procedure(calculation),
+    ):
+        entries.setdefault(symbol, (meaning, label))
+    return Nomenclature(
+        [
+            (Tex(symbol), meaning, Ref("Table" if label.startswith("tab") else "Eq.", label))
+            for symbol, (meaning, label) in sorted(entries.items(), key=_by_alphabet)
+        ]
+    )
+
+
+def _symbols_of_steps(calculation: Calculation) -> Iterator[tuple[str, Inline, str]]:
+    """Yield symbol, meaning and anchor of the values of the pier."""
+    for steps in (
+        pier_steps.section_steps,
+        pier_steps.unit_force_steps,
+        pier_steps.stiffness_steps,
+        shape_steps.shape_steps,
+        shape_steps.mass_steps,
+    ):
+        for step in steps(calculation).equations:
+            yield step.symbol, in_a_sentence(step.name), step.label
+
+
+def _by_alphabet(entry: tuple[str, object]) -> tuple[int, int, str, str]:
+    """Return what symbols are sorted by: Latin before Greek before signs, accents last."""
+    symbol = re.sub(r"\\(bar|d?dot|hat|mathrm)(?![a-z])|[{} ]", "", entry[0]).lstrip("(")
+    if not symbol.startswith("\\"):
+        return 0, 0, symbol.lower(), symbol.swapcase() + entry[0]
+    name = re.match(r"[a-z]*", symbol[1:].replace("kappaGA", "kappa"))[0]  # type: ignore[index]
+    return (1, _GREEK.index(name), symbol, entry[0]) if name in _GREEK else (2, 0, symbol, "")
 
 
 def provenance_table(

@@ -5,8 +5,9 @@ from pierimpact.calculation import Calculation
 from pierimpact.checks import InputError
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
 from pierimpact.plots.figures import draw_history
-from pierimpact.sheet.blocks import Block, Column, Equation, Figure, Paragraph, Steps, Table
+from pierimpact.sheet.blocks import Block, Paragraph
 from pierimpact.sheet.markup import Inline, Tex, in_tex
+from pierimpact.sheet.numbered import Column, Equation, Figure, Steps, Table
 from pierimpact.units import printed, rounded, unit_of
 
 #: Windows of the moving averages that crash tests report [s].
@@ -105,13 +106,26 @@ def averages_table(calculation: Calculation) -> Block:
     """Return the largest contact force and its largest moving averages."""
     history, system = calculation.history, calculation.case.inputs.units
     largest = float(history.contact_force.max())
-    rows: list[list[Inline]] = [["At one instant", printed(largest, "force", system).number]]
+    at = float(history.time[history.contact_force.argmax()])
+    rows: list[list[Inline]] = [
+        [
+            "At one instant",
+            printed(largest, "force", system).number,
+            printed(at, "time", system).number,
+        ]
+    ]
     for window in WINDOWS:
+        name = f"Over {printed(window, 'time', system, given=True)}"
         try:
-            shown = printed(largest_average_force(history, window).force, "force", system).number
+            average = largest_average_force(history, window)
         except InputError:  # the collision is over sooner
-            shown = "none"
-        rows.append([f"Over {printed(window, 'time', system, given=True)}", shown])
+            rows.append([name, "none", ""])
+            continue
+        shown, start = (
+            printed(average.force, "force", system),
+            printed(average.start, "time", system),
+        )
+        rows.append([name, shown.number, start.number])
     return Table(
         label="tab-averages",
         caption="Largest contact force between truck and pier by the full model, and its largest "
@@ -119,6 +133,7 @@ def averages_table(calculation: Calculation) -> Block:
         columns=[
             Column(heading="Average"),
             Column(heading=f"Contact force [{unit_of('force', system)}]", align="decimal"),
+            Column(heading=f"From [{unit_of('time', system)}]", align="decimal"),
         ],
         rows=rows,
     )
@@ -166,9 +181,9 @@ def _force_or_none(value: float | None, system: str) -> str:
 def design_reaction_step(calculation: Calculation) -> Block:
     """Return the design reaction: the larger of procedure and full model."""
     system = calculation.case.inputs.units
-    procedure = printed(calculation.design.reaction, "force", system)
-    model = printed(calculation.governing_peak.reaction, "force", system)
-    larger = printed(calculation.design_force, "force", system)
+    procedure = printed(calculation.design.reaction, "dynamic force", system)
+    model = printed(calculation.governing_peak.reaction, "dynamic force", system)
+    larger = printed(calculation.design_force, "dynamic force", system)
     return Steps(
         [
             Equation(

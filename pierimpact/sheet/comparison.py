@@ -1,42 +1,50 @@
 """The design reaction beside the equivalent static forces of codes."""
 
 from pierimpact.calculation import Calculation
-from pierimpact.codes import CodeForce, code_forces
-from pierimpact.sheet.blocks import Block, Column, Notes, Table
+from pierimpact.codes import CodeForce, Sourced, code_forces
+from pierimpact.sheet.blocks import Block, Notes
 from pierimpact.sheet.markup import Inline
-from pierimpact.units import printed, unit_of
+from pierimpact.sheet.numbered import Column, Table
+from pierimpact.units import printed, rounded, unit_of
+
+_UNKNOWN = "—"
 
 
 def codes_table(calculation: Calculation) -> Block:
-    """Return force, height, base shear and largest moment of each clause, and how sure it is."""
-    inputs = calculation.case.inputs
-    system = inputs.units
-    used = calculation.struck.impact_height
-    force, length, moment = (unit_of(kind, system) for kind in ("force", "length", "moment"))
-    rows: list[list[Inline]] = [
-        [
-            "This calculation",
-            printed(calculation.design_force, "force", system).number,
-            printed(used, "length", system, given=True).number,
-            *_effects(calculation, calculation.design_force, used),
-            "",
-        ],
-        *(_code_row(calculation, code) for code in _codes(calculation)),
-    ]
+    """Return edition, clause, forces and height of each clause, and how sure they are."""
+    system = calculation.case.inputs.units
+    force, length = unit_of("force", system), unit_of("length", system)
+
+    def shown(value: Sourced | None, quantity: str) -> str:
+        if value is None:
+            return _UNKNOWN
+        return printed(value.value, quantity, system, given=True).number
+
     return Table(
         label="tab-codes",
-        caption="Forces of codes along the direction of travel, each at its own height or, marked "
-        "*, at that of this calculation where the code’s is not known here.",
+        caption=f"Forces of codes along and across the travel, and the height at which they act "
+        f"({_UNKNOWN}: not known here).",
         columns=[
-            Column(heading="Code", wide=True),
-            Column(heading=f"Force [{force}]", align="decimal"),
+            Column(heading="Code"),
+            Column(heading="Edition"),
+            Column(heading="Clause"),
+            Column(heading=f"Along [{force}]", align="decimal"),
+            Column(heading=f"Across [{force}]", align="decimal"),
             Column(heading=f"Height [{length}]", align="decimal"),
-            Column(heading=f"Base shear [{force}]", align="decimal"),
-            Column(heading=f"Largest moment [{moment}]", align="decimal"),
             Column(heading="Status", wide=True),
         ],
-        rows=rows,
-        strong=[0],
+        rows=[
+            [
+                code.code,
+                code.edition or _UNKNOWN,
+                code.clause,
+                shown(code.along, "force"),
+                shown(code.across, "force"),
+                shown(code.height, "length"),
+                _status(code),
+            ]
+            for code in _codes(calculation)
+        ],
     )
 
 
@@ -44,45 +52,71 @@ def _codes(calculation: Calculation) -> tuple[CodeForce, ...]:
     return code_forces(calculation.case.inputs.speed, calculation.case.truck.mass)
 
 
-def _code_row(calculation: Calculation, code: CodeForce) -> list[Inline]:
+def _status(code: CodeForce) -> str:
+    """Return how sure the forces of a clause and their height are."""
+    if code.height is None or code.height.remark == code.along.remark:
+        return code.along.remark
+    return f"force {code.along.remark}; height {code.height.remark}"
+
+
+def effects_table(calculation: Calculation) -> Block:
+    """Return base shear and largest moment under each force, and this calculation's over them."""
     system, used = calculation.case.inputs.units, calculation.struck.impact_height
-    height = code.height.value if code.height else used
-    shown = printed(height, "length", system, given=True).number
-    status = f"force {code.along.remark}"
-    if code.height is not None and code.height.remark != code.along.remark:
-        status += f"; height {code.height.remark}"
-    elif code.height is not None:
-        status = code.along.remark
-    return [
-        f"{code.code}, {code.clause}",
-        printed(code.along.value, "force", system).number,
-        shown if code.height else f"{shown}*",
-        *_effects(calculation, code.along.value, height),
-        status,
-    ]
+    force, length, moment = (unit_of(kind, system) for kind in ("force", "length", "moment"))
+    rows: list[list[Inline]] = [_effects(calculation, calculation.design_force, used, "")]
+    rows[0][:2] = ["This calculation", printed(calculation.design_force, "force", system).number]
+    for code in _codes(calculation):
+        height, mark = (code.height.value, "") if code.height else (used, "*")
+        row = _effects(calculation, code.along.value, height, mark)
+        rows.append([code.code, *row[1:]])
+    return Table(
+        label="tab-effects",
+        caption="The forces along the travel on this column, each at its own height or, marked *, "
+        "at that of this calculation: base shear, largest moment, and this calculation over each.",
+        columns=[
+            Column(heading="Code", wide=True),
+            Column(heading=f"Force [{force}]", align="decimal"),
+            Column(heading=f"Height [{length}]", align="decimal"),
+            Column(heading=f"Shear [{force}]", align="decimal"),
+            Column(heading=f"Moment [{moment}]", align="decimal"),
+            Column(heading="Ratio of force", align="decimal"),
+            Column(heading="of shear", align="decimal"),
+            Column(heading="of moment", align="decimal"),
+        ],
+        rows=rows,
+        strong=[0],
+    )
 
 
-def _effects(calculation: Calculation, force: float, height: float) -> list[str]:
-    """Return base shear and largest moment of a force at a height, for print."""
+def _effects(calculation: Calculation, force: float, height: float, mark: str) -> list[Inline]:
+    """Return the row of a force, its first cell empty."""
+    system, own = calculation.case.inputs.units, calculation.member_forces
+    shown = printed(height, "length", system, given=True).number + mark
+    cells: list[Inline] = ["", printed(force, "force", system, given=True).number, shown]
+    ratio = rounded(calculation.design_force / force, 3)
     if height >= calculation.case.column.height:
-        return ["above the column", ""]
-    system = calculation.case.inputs.units
+        return [*cells, "above the column", "", ratio, "", ""]
     forces = calculation.case.column.struck_at(height).member_forces(force)
+    shear, moment = abs(forces.base_force), abs(forces.largest_moment.value)
     return [
-        printed(abs(forces.base_force), "force", system).number,
-        printed(abs(forces.largest_moment.value), "moment", system).number,
+        *cells,
+        printed(shear, "force", system).number,
+        printed(moment, "moment", system).number,
+        ratio,
+        rounded(abs(own.base_force) / shear, 3) if shear else _UNKNOWN,
+        rounded(abs(own.largest_moment.value) / moment, 3),
     ]
 
 
 def codes_notes(calculation: Calculation) -> Block:
     """Return what else is known of the clauses."""
     system = calculation.case.inputs.units
-    notes: list[Inline] = []
+    codes_by_note: dict[str, list[str]] = {}
     for code in _codes(calculation):
-        text = f"{code.code}, {code.clause}: {code.note}".rstrip(": ")
-        if code.across is not None:
-            across = printed(code.across.value, "force", system)
-            text += f" Across the travel {across} ({code.across.remark})."
-        if code.note or code.across is not None:
-            notes.append(text)
-    return Notes(notes)
+        note = code.note
+        if code.stiffness is not None:
+            stiffness = printed(code.stiffness.value, "stiffness", system, given=True)
+            note += f" k = {stiffness} ({code.stiffness.remark}), speed and mass are the case’s."
+        if note:
+            codes_by_note.setdefault(note, []).append(code.code)
+    return Notes([f"{'; '.join(codes)}: {note}" for note, codes in codes_by_note.items()])

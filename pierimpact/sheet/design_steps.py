@@ -5,10 +5,11 @@ from collections.abc import Iterator, Sequence
 from pierimpact.calculation import Calculation
 from pierimpact.design.equations import DesignStep
 from pierimpact.design.reaction import DesignReaction
-from pierimpact.sheet.blocks import Block, Column, Paragraph, Steps, Table
-from pierimpact.sheet.markup import Inline, Tex, inline
+from pierimpact.sheet.blocks import Block, Paragraph
+from pierimpact.sheet.markup import Inline, Ref, Tex, inline
+from pierimpact.sheet.numbered import Column, Steps, Table
 from pierimpact.sheet.step_writer import StepWriter, Value
-from pierimpact.units import printed
+from pierimpact.units import printed, unit_of, unit_size
 
 # Kinds of quantity by SI unit. Forces, masses, lengths and times are in consistent units, so that
 # values can be put in without a factor.
@@ -27,6 +28,24 @@ _QUANTITIES = {
     "-": "share",
 }
 
+# Where the starting values are from, unless from the table of the truck.
+_ORIGINS = {
+    "V": Ref("Table", "tab-inputs"),
+    "mp": Ref("Eq.", "eq-mp"),
+    "kp": Ref("Eq.", "eq-kp"),
+    "zeta": Ref("Table", "tab-inputs"),
+}
+
+# What is to be said of a step beside what it is.
+_SOURCES = {
+    "engine_hump": "figures fitted to the full model",
+    "cargo_hump": "figures fitted to the full model",
+    "overshoot": "a suddenly applied force",
+    "engine_swing": "of displacement and velocity",
+    "pulse_centroid": "a quarter of a sine up, and down in e times its time",
+    "pulse_spread": "of the same blow",
+}
+
 # Parts of the procedure, and the first step of the next.
 _ENDS = {
     "plateau": ("engine_first_time",),
@@ -43,15 +62,27 @@ def given_table(calculation: Calculation) -> Block:
     rows: list[list[Inline]] = []
     for step in calculation.design.given:
         shown = printed(step.value, _QUANTITIES[step.unit], system, given=True)
-        rows.append([_capital(step.meaning), Tex(step.symbol), shown.number, shown.unit])
+        rows.append(
+            [
+                _capital(step.meaning),
+                Tex(step.symbol),
+                shown.number,
+                shown.unit,
+                _ORIGINS.get(step.name, Ref("Table", "tab-truck")),
+            ]
+        )
+    mass, unit = unit_of("dynamic mass", system), unit_of("mass", system)
+    in_units = unit_size("dynamic mass", system) / unit_size("mass", system)
     return Table(
         label="tab-given",
-        caption="What the procedure starts from, in consistent units.",
+        caption="What the procedure starts from, in consistent units: forces are masses times "
+        f"accelerations, and 1 {mass} is {printed(in_units, 'share', 'SI', given=True)} {unit}.",
         columns=[
-            Column(heading="Value"),
+            Column(heading="Item"),
             Column(heading="Symbol"),
             Column(heading="Value", align="decimal"),
             Column(heading="Unit"),
+            Column(heading="From"),
         ],
         rows=rows,
     )
@@ -75,7 +106,16 @@ def procedure_steps(calculation: Calculation, part: str) -> Block:
         )
     write = StepWriter(_values(design), calculation.case.inputs.units)
     return Steps(
-        [write.step(_capital(step.meaning), step.name, step.formula, units=False) for step in steps]
+        [
+            write.step(
+                _capital(step.meaning),
+                step.name,
+                step.formula,
+                units=False,
+                source=_SOURCES.get(step.name, ""),
+            )
+            for step in steps
+        ]
     )
 
 
@@ -89,7 +129,7 @@ def hand_table(calculation: Calculation) -> Block:
         rows.append(
             [
                 inline(_capital(step.meaning)),
-                Tex(f"{step.symbol} = {step.equation}"),
+                Tex(rf"\displaystyle {step.symbol} = {step.equation}"),
                 shown.number,
                 shown.unit,
             ]
@@ -104,6 +144,7 @@ def hand_table(calculation: Calculation) -> Block:
             Column(heading="Unit"),
         ],
         rows=rows,
+        centred=True,
     )
 
 
@@ -129,10 +170,12 @@ def _values(design: DesignReaction) -> dict[str, Value]:
     }
 
 
-def symbols_of_procedure(calculation: Calculation) -> Iterator[tuple[Tex, Inline]]:
-    """Yield symbol and meaning of every value of the procedure."""
+def symbols_of_procedure(calculation: Calculation) -> Iterator[tuple[str, Inline, str]]:
+    """Yield symbol, meaning and anchor of every value of the procedure, hand level last."""
     for step in calculation.design.steps:
-        yield Tex(step.symbol), inline(step.meaning)
+        yield step.symbol, inline(step.meaning), f"eq-{step.name}"
+    for step in calculation.hand.steps:
+        yield step.symbol, inline(step.meaning), "tab-hand"
 
 
 def _capital(text: str) -> str:

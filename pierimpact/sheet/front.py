@@ -4,8 +4,7 @@ import datetime
 
 from pierimpact.calculation import Calculation
 from pierimpact.sheet.blocks import Block, Contents, Headline, Notice, Paragraph, TitleBlock
-from pierimpact.sheet.input_tables import STATUS_WORDS, name_of
-from pierimpact.sheet.markup import Inline
+from pierimpact.sheet.cautions import cautions
 from pierimpact.units import Printed, printed, rounded
 
 
@@ -102,23 +101,7 @@ def governing_statement(calculation: Calculation) -> Block:
 
 def warnings(calculation: Calculation) -> Block:
     """Return what a reader must know before relying on the results."""
-    case = calculation.case
-    body: list[Inline] = []
-    for name, ratio in calculation.utilisations.items():
-        if ratio > 1.0:
-            body.append(f"The {name} exceeds the resistance, {rounded(ratio, 3)} times.")
-    body += [f"{warning[:1].upper()}{warning[1:]}." for warning in calculation.design.warnings]
-    status = case.truck_file.status
-    if status != "read":
-        body.append(
-            f"The truck {case.truck.name} is {STATUS_WORDS[status]} ({case.truck_file.source}). "
-            "The results are no better than its parameters."
-        )
-    if case.inputs.assumed:
-        names = ", ".join(name_of(key) for key in case.inputs.assumed)
-        body.append(f"Assumed, not given by any source: {names}.")
-    body += case.inputs.notes
-    return Notice(heading="Before you rely on this", body=body)
+    return Notice(heading="Before you rely on this", body=cautions(calculation))
 
 
 def contents() -> Block:

@@ -5,8 +5,9 @@ from collections.abc import Iterator
 
 from pierimpact.calculation import Calculation
 from pierimpact.inputs import PHYSICAL_KEYS
-from pierimpact.sheet.blocks import Block, Column, Table
-from pierimpact.sheet.markup import Inline, Tex
+from pierimpact.sheet.blocks import Block
+from pierimpact.sheet.markup import Inline, Tex, in_a_sentence
+from pierimpact.sheet.numbered import Column, Table
 from pierimpact.units import printed
 
 # Name, symbol and kind of quantity of the keys of a case file; no kind where the value is a word.
@@ -40,7 +41,7 @@ _TRUCK_PARAMETERS = {
     "engine_spring.stiffness": ("Engine spring: steep stiffness", "k_1", "stiffness"),
     "engine_spring.unloading_stiffness": (
         "Engine spring: unloading stiffness",
-        r"k_\mathrm{u1}",
+        r"k_{\mathrm{u}1}",
         "stiffness",
     ),
     "body_spring.plateau_force": ("Body spring: plateau force", "P_2", "force"),
@@ -48,7 +49,7 @@ _TRUCK_PARAMETERS = {
     "body_spring.stiffness": ("Body spring: steep stiffness", "k_2", "stiffness"),
     "body_spring.unloading_stiffness": (
         "Body spring: unloading stiffness",
-        r"k_\mathrm{u2}",
+        r"k_{\mathrm{u}2}",
         "stiffness",
     ),
 }
@@ -147,17 +148,16 @@ def truck_table(calculation: Calculation) -> Block:
     )
 
 
-def symbols_of_inputs(calculation: Calculation) -> Iterator[tuple[Tex, Inline]]:
-    """Yield symbol and meaning of what the case and the truck give."""
+def symbols_of_inputs(calculation: Calculation) -> Iterator[tuple[str, Inline, str]]:
+    """Yield symbol, meaning and anchor of what the case and the truck give."""
     for key in _shown_keys(calculation):
         if _INPUTS[key][1]:
-            yield Tex(_INPUTS[key][1]), name_of(key)
+            yield _INPUTS[key][1], name_of(key), "tab-inputs"
     for name, symbol, _ in _TRUCK_PARAMETERS.values():
         if symbol:
-            yield Tex(symbol), name[0].lower() + name[1:]
+            yield symbol, in_a_sentence(name), "tab-truck"
 
 
 def name_of(key: str) -> str:
     """Return the name of an input as it reads within a sentence."""
-    name = _INPUTS[key][0]
-    return name if name.startswith("Poisson") else name[0].lower() + name[1:]
+    return str(in_a_sentence(_INPUTS[key][0]))

@@ -35,7 +35,15 @@ class Link:
     file_name: str
 
 
-Piece = str | Tex | Code | Link
+@dataclass(frozen=True)
+class Ref:
+    """The name and number of an equation, table or figure, and the way to it."""
+
+    kind: str
+    label: str
+
+
+Piece = str | Tex | Code | Link | Ref
 Inline = Piece | tuple[Piece, ...]  #: one piece of text, or a run of them
 
 
@@ -47,6 +55,8 @@ def to_html(inline: Inline) -> str:
         return rf'<span class="math">\({html.escape(inline.source)}\)</span>'
     if isinstance(inline, Code):
         return f"<code>{html.escape(inline.text)}</code>"
+    if isinstance(inline, Ref):
+        return f'<a href="#{inline.label}">{inline.kind}</a>'
     if isinstance(inline, Link):
         # The dot keeps what stands before a colon in a file's name from being a protocol.
         return f'<a href="./{quote(inline.file_name)}">{html.escape(inline.text)}</a>'
@@ -61,6 +71,8 @@ def to_typst(inline: Inline) -> str:
         return f"#tex({typst_string(inline.source)});"
     if isinstance(inline, Code):
         return f"#raw({typst_string(inline.text)});"
+    if isinstance(inline, Ref):
+        return f"#link(<{inline.label}>)[{inline.kind}];"
     text = inline.text if isinstance(inline, Link) else inline
     return f"#{typst_string(text)};"
 
@@ -76,6 +88,14 @@ def inline(text: str) -> Inline:
     pieces = text.split("$")
     run = [Tex(piece) if index % 2 else piece for index, piece in enumerate(pieces) if piece]
     return tuple(run) if len(run) > 1 else text
+
+
+def in_a_sentence(words: Inline) -> Inline:
+    """Return words that begin with a capital as they read within a sentence."""
+    first, *others = words if isinstance(words, tuple) else (words,)
+    if isinstance(first, str) and not first.startswith("Poisson"):
+        first = first[:1].lower() + first[1:]
+    return (first, *others) if others else first
 
 
 def tex_length(source: str) -> int:

@@ -2,9 +2,10 @@
 
 from pierimpact.calculation import Calculation
 from pierimpact.plots.figures import draw_member_forces
-from pierimpact.sheet.blocks import Block, Column, Figure, Table
+from pierimpact.sheet.blocks import Block, Paragraph
 from pierimpact.sheet.front import verdict
 from pierimpact.sheet.markup import Inline, Tex
+from pierimpact.sheet.numbered import Column, Figure, Table
 from pierimpact.units import printed, rounded
 
 
@@ -58,6 +59,8 @@ def member_forces_figure(calculation: Calculation) -> Block:
 def utilisation_table(calculation: Calculation) -> Block:
     """Return demand, resistance, utilisation and verdict of shear and moment."""
     inputs, forces = calculation.case.inputs, calculation.member_forces
+    if not calculation.utilisations:
+        return Paragraph("The case gives no resistance: utilisations are not calculated.")
     rows: list[list[Inline]] = []
     for name, demand, resistance, quantity in (
         ("Shear", forces.largest_shear.value, inputs.shear_resistance, "force"),
@@ -72,10 +75,20 @@ def utilisation_table(calculation: Calculation) -> Block:
         rows.append([name, shown.number, limit, shown.unit, rounded(ratio, 3), verdict(ratio)])
     return Table(
         label="tab-utilisation",
-        caption="Utilisation: the largest member force over its resistance.",
+        caption=(
+            "Utilisation: the largest member force, ",
+            Tex(r"V_\mathrm{max}"),
+            " or ",
+            Tex(r"M_\mathrm{max}"),
+            ", over its resistance, ",
+            Tex(r"V_\mathrm{R}"),
+            " or ",
+            Tex(r"M_\mathrm{R}"),
+            ".",
+        ),
         columns=[
             Column(heading="Check"),
-            Column(heading="Demand", align="decimal"),
+            Column(heading="Largest force", align="decimal"),
             Column(heading="Resistance", align="decimal"),
             Column(heading="Unit"),
             Column(heading="Utilisation", align="decimal"),

@@ -8,8 +8,8 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from pierimpact.sheet.blocks import CONTINUED, Equation
 from pierimpact.sheet.markup import in_tex, inline, number_in_tex, tex_length
+from pierimpact.sheet.numbered import CONTINUED, Equation
 from pierimpact.units import printed
 
 _LONG = 75  # characters on a line
@@ -66,6 +66,8 @@ class StepWriter:
         lines = [*values, f"{last} = {shown}"] if fits else [*values, last, shown]
         if formula_in_symbols == formula:  # nothing to put in
             lines = [formula]
+        elif re.fullmatch(r"<\w+>", formula):  # the value put in is the result
+            lines = [f"{formula_in_symbols} = {shown}"]
         elif re.sub(r"\\,| ", "", formula_in_symbols) != symbol.replace(" ", ""):
             lines = [*_broken(formula_in_symbols), *lines]
         label = f"{self.prefix}{result}"

@@ -9,9 +9,11 @@ from typing import NamedTuple
 
 import pierimpact
 from pierimpact.calculation import Calculation
-from pierimpact.sheet.blocks import Block, Column, Headline, Notice, Paragraph, Table, TitleBlock
+from pierimpact.sheet.blocks import Block, Headline, Notice, Paragraph, TitleBlock
+from pierimpact.sheet.cautions import limits_of_the_study
 from pierimpact.sheet.input_tables import STATUS_WORDS
 from pierimpact.sheet.markup import Code, Inline, Link, Piece, Tex
+from pierimpact.sheet.numbered import Column, Table
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 
 NONE = "none"  # instead of a peak that is not there
@@ -122,7 +124,7 @@ def summary_csv(rows: Sequence[Row]) -> str:
                 *(result.utilisations.get(check) for check in _UTILISATIONS),
             ]
         status = "not calculated" if result is None else "calculated"
-        all_remarks = "; ".join((*_remarks(result), *remarks))
+        all_remarks = "; ".join((*_remarks(result, system), *remarks))
         cells = [name, *values, status, all_remarks]
         writer.writerow([no_formula(cell) if isinstance(cell, str) else cell for cell in cells])
     return text.getvalue()
@@ -213,7 +215,7 @@ def _results_table(rows: Sequence[Row], system: str) -> Block:
                 rounded(result.utilisations[check], 3) if check in result.utilisations else "—"
                 for check in checks
             ),
-            "; ".join((*_remarks(result), *remarks[name])) or "—",
+            "; ".join((*_remarks(result, system), *remarks[name])) or "—",
         ]
         for name, result in results.items()
     ]
@@ -313,7 +315,7 @@ def _column(result: Calculation, system: str) -> str:
     )
 
 
-def _remarks(result: Calculation | None) -> list[str]:
+def _remarks(result: Calculation | None, system: str) -> list[str]:
     """Return what to know before relying on a row."""
     if result is None:
         return []
@@ -323,5 +325,6 @@ def _remarks(result: Calculation | None) -> list[str]:
         remarks.append(f"{assumed} input{'s' * (assumed > 1)} assumed")
     if result.history.engine_contact_time is None:
         remarks.append("no engine contact")
+    remarks += limits_of_the_study(result, system)
     exceeded = [check for check, ratio in result.utilisations.items() if ratio > 1.0]
     return remarks + [f"exceeds the resistance to {check}" for check in exceeded]

@@ -3,8 +3,9 @@
 from pierimpact.calculation import Calculation
 from pierimpact.plots.figures import draw_sensitivity, draw_spectra
 from pierimpact.sensitivity import MASS_CHANGE, SPEED_CHANGE
-from pierimpact.sheet.blocks import Block, Column, Figure, Table
+from pierimpact.sheet.blocks import Block
 from pierimpact.sheet.markup import Inline
+from pierimpact.sheet.numbered import Column, Figure, Table
 from pierimpact.units import printed, rounded, unit_of
 
 
@@ -58,7 +59,7 @@ def sensitivity_table(calculation: Calculation) -> Block:
     """Return the reactions at other speeds and masses."""
     case, system, found = calculation.case, calculation.case.inputs.units, calculation.sensitivity
     speed, mass = case.inputs.speed, case.truck.mass
-    step = printed(SPEED_CHANGE, "speed", system)
+    step = printed(SPEED_CHANGE, "speed", system, given=True)
     share = f"{100.0 * MASS_CHANGE:g} %"
     changes = [
         ("This case", None, "", 0.0),
@@ -78,7 +79,7 @@ def sensitivity_table(calculation: Calculation) -> Block:
         rows.append(
             [
                 name,
-                str(printed(value, quantity, system)) if quantity else "",
+                str(printed(value, quantity, system, given=True)) if quantity else "",
                 printed(design, "force", system).number,
                 printed(model, "force", system).number,
                 rounded(design / model, 3),

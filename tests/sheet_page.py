@@ -1,0 +1,30 @@
+"""The page of a case's report without a kernel: the report's notebook, run cell by cell here."""
+
+import ast
+import json
+
+from nbformat import v4
+
+from pierimpact.exporters import SheetHTMLExporter
+from pierimpact.report import report_notebook
+
+
+def page_of(values):
+    """Return the HTML page of the report of a case's keys and values."""
+    namespace, cells = {}, []
+    for index, cell in enumerate(json.loads(report_notebook().read_text("utf-8"))["cells"]):
+        source = "".join(cell["source"])
+        if cell["cell_type"] == "markdown":
+            cells.append(v4.new_markdown_cell(source))
+            continue
+        *statements, last = ast.parse(source).body
+        if index == 0:  # the parameters, which the case's own follow
+            exec(source, namespace)
+            namespace |= values
+            continue
+        exec(compile(ast.Module(statements, []), "cell", "exec"), namespace)
+        block = eval(compile(ast.Expression(last.value), "cell", "eval"), namespace)
+        output = v4.new_output("display_data", block._repr_mimebundle_())
+        cells.append(v4.new_code_cell(outputs=[output]))
+    page, _ = SheetHTMLExporter().from_notebook_node(v4.new_notebook(cells=cells))
+    return page
