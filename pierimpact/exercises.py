@@ -8,7 +8,7 @@ import ipywidgets as ipw
 from IPython.display import display
 
 from pierimpact.checks import InputError, one_of
-from pierimpact.teaching.chart import GREEN, GREY, INK, ORANGE
+from pierimpact.plots.style import GREEN, INK, MUTED, ORANGE
 from pierimpact.teaching.checker import Question, Verdict, check
 from pierimpact.teaching.explorer import LIVE, STILL, STYLE
 from pierimpact.teaching.questions import QUESTIONS
@@ -82,7 +82,7 @@ class Exercise:
         button.on_click(self.answer)
         self.widget = ipw.VBox(
             [ipw.HTML(self._asked()), ipw.HBox([self.box, button]), self.feedback],
-            layout=ipw.Layout(border_left=f"3px solid {GREY}", padding="2px 0 4px 12px"),
+            layout=ipw.Layout(border_left=f"3px solid {MUTED}", padding="2px 0 4px 12px"),
         )
         self.widget.add_class(LIVE)
 
@@ -132,10 +132,11 @@ def score(topic: str) -> None:
 
 def _show(widget: ipw.Widget, still: str) -> None:
     display(widget)  # type: ignore[no-untyped-call]
-    note = f'<div style="color:{GREY}">To be answered in the live notebook.</div>'
+    note = f'<div style="color:{MUTED}">To be answered in the live notebook.</div>'
     display(  # type: ignore[no-untyped-call]
         {
-            "text/html": f'{STYLE}<div class="{STILL}">{still and still + note}</div>',
+            "text/html": f'{STYLE}<div class="{STILL}" style="margin:0.7em 0">'
+            f"{still and still + note}</div>",
             "text/plain": "",
         },
         raw=True,

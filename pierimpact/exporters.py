@@ -56,17 +56,16 @@ class _SheetExporter(TemplateExporter):
     def _default_extra_template_basedirs(self) -> list[str]:
         return [str(templates_folder())]
 
-    def from_notebook_node(
-        self, nb: NotebookNode, resources: Any = None, **kw: Any
-    ) -> tuple[Any, dict[str, Any]]:
-        """Return the notebook in this format, and nbconvert's resources."""
-        resources = {**(resources or {}), "sheet": self._sheet(nb)}
-        return super().from_notebook_node(nb, resources, **kw)
+    def _preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
+        # `jupyter nbconvert --execute` executes here: before it there are no outputs.
+        nb, resources = super()._preprocess(nb, resources)  # type: ignore[no-untyped-call]
+        resources["sheet"] = self._sheet(nb)
+        return nb, resources
 
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
         """Return what the template needs: the pieces, and what the title block says."""
         sheet: dict[str, Any] = {
-            "title": "Notebook",
+            "title": _title(nb),
             "date": "2000-01-01",
             "paper": "a4",
             "landscape": False,
@@ -140,6 +139,8 @@ class SheetHTMLExporter(_SheetExporter):
         sheet = super()._sheet(nb)
         # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
         page = re.sub(r"<annotation .*?</annotation>", "", "\n".join(sheet["pieces"]), flags=re.S)
+        if not sheet["entries"]:  # no calculation sheet: its first heading is a title
+            page = re.sub(r'<span\s+class="header-section-number">[^<]*</span>\s*', "", page)
         return sheet | {"pieces": _with_contents(_numbered(page))}
 
     def _formulas(self, text: str) -> list[str]:
@@ -154,6 +155,13 @@ class SheetHTMLExporter(_SheetExporter):
     def _formula(self, match: re.Match[str], converted: str) -> str:
         formula = converted.removeprefix("<p>").removesuffix("</p>")
         return f'<div class="math">{formula}</div>' if match[2] else formula
+
+
+def _title(nb: NotebookNode) -> str:
+    """Return the first heading of a notebook's prose."""
+    prose = "\n".join(cell.source for cell in nb.cells if cell.cell_type == "markdown")
+    heading = re.search(r"^#+ +(.+)$", prose, re.MULTILINE)
+    return heading[1].strip() if heading else "Notebook"
 
 
 def _numbered(page: str) -> str:

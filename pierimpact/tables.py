@@ -69,10 +69,14 @@ def accuracy() -> HTML:
 
 def _table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> HTML:
     def cells(kind: str, values: Sequence[str]) -> str:
+        styles = (
+            "text-align:right;white-space:nowrap" if n in right else "text-align:left"
+            for n in range(len(values))
+        )
         return "".join(
-            f'<{kind} style="text-align:{"right" if n in right else "left"};padding:3px 12px 3px 0;'
-            f'vertical-align:top">{html.escape(value)}</{kind}>'
-            for n, value in enumerate(values)
+            f'<{kind} style="{style};padding:3px 12px 3px 0;vertical-align:top">'
+            f"{html.escape(value)}</{kind}>"
+            for style, value in zip(styles, values, strict=True)
         )
 
     body = "".join(f"<tr>{cells('td', row)}</tr>" for row in rows)

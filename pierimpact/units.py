@@ -188,6 +188,7 @@ QUANTITIES = {
     "damping": Quantity(("kN*s/m", "kN·s/m"), ("kip*s/ft", "kip·s/ft"), 4),
     "frequency": Quantity(("Hz", "Hz"), ("Hz", "Hz"), 4),
     "speed": Quantity(("km/h", "km/h"), ("mph", "mph"), 4),
+    "energy": Quantity(("MJ", "MJ"), ("kip*ft", "kip·ft"), 4),
     "force": Quantity(("kN", "kN"), ("kip", "kip"), 4),
     "moment": Quantity(("kN*m", "kN·m"), ("kip*ft", "kip·ft"), 4),
     "time": Quantity(("ms", "ms"), ("ms", "ms"), 4),

@@ -8,13 +8,13 @@ import socket
 import subprocess
 import sys
 import time
-import urllib.request
 from pathlib import Path
 
 import pytest
 
+from pierimpact.teaching.questions import QUESTIONS
 from pierimpact.teaching.scenario import Scenario
-from pierimpact.units import printed
+from pierimpact.units import DIMENSIONS, printed
 
 webdriver = pytest.importorskip("selenium.webdriver")
 StaleElementReferenceException = pytest.importorskip(
@@ -25,12 +25,13 @@ pytestmark = pytest.mark.skipif(
     not (CHROMIUM and DRIVER), reason="no browser: apt-get install chromium chromium-driver"
 )
 HOUSE = Path(__file__).parents[1]
+LESSONS = sorted(path.stem for path in (HOUSE / "notebooks").glob("0*.ipynb"))
 TOKEN = "for-loopback-only"
 PATIENCE = 90  # for a server, a kernel or a page to be ready [s]
 OPTIONS = (
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
-    "--window-size=1500,1400",
+    "--window-size=1500,4000",
 )  # fmt: skip
 
 
@@ -46,10 +47,9 @@ def until(condition):
     pytest.fail(f"waited {PATIENCE} s in vain")
 
 
-@pytest.fixture(scope="module")
-def server(tmp_path_factory):
-    """Start JupyterLab on copies of the notebooks and return its folder and address."""
-    folder = tmp_path_factory.mktemp("lab")
+@contextlib.contextmanager
+def served(folder, module, *options):
+    """Serve copies of the notebooks from a folder by a Jupyter server; give its address."""
     for notebook in (HOUSE / "notebooks").glob("*.ipynb"):
         shutil.copy(notebook, folder)
     with socket.socket() as free:
@@ -60,28 +60,33 @@ def server(tmp_path_factory):
         for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR",
                      "JUPYTERLAB_SETTINGS_DIR", "JUPYTERLAB_WORKSPACES_DIR")
     }  # fmt: skip
-    command = [
-        sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1",
-        f"--port={port}", f"--IdentityProvider.token={TOKEN}", f"--ServerApp.root_dir={folder}",
-    ]  # fmt: skip
+    command = [sys.executable, "-m", module, "--no-browser", f"--port={port}", *options]
     address = f"http://127.0.0.1:{port}"
 
     def answers():
         assert process.poll() is None, (folder / "log").read_text()
-        try:
-            return urllib.request.urlopen(f"{address}/api?token={TOKEN}", timeout=5)
-        except OSError:
-            return None
+        with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port), 5):
+            return True
+        return False
 
     with (folder / "log").open("w") as log:
         environment = os.environ | private | {"PYTHONPATH": str(HOUSE)}
-        process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=log, stderr=log)
         try:
-            until(answers).close()
+            until(answers)
             yield address
         finally:
             process.terminate()
             process.wait(timeout=PATIENCE)
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("lab")
+    options = ("--allow-root", "--ip=127.0.0.1", f"--IdentityProvider.token={TOKEN}",
+               f"--ServerApp.root_dir={folder}")  # fmt: skip
+    with served(folder, "jupyterlab", *options) as address:
+        yield address
 
 
 @pytest.fixture(scope="module")
@@ -97,24 +102,15 @@ def browser(tmp_path_factory):
 
 
 class Page:
-    """A notebook in JupyterLab."""
+    """A page with an explorer."""
 
-    def __init__(self, browser, server, name):
+    def __init__(self, browser):
         self.browser = browser
-        browser.get(f"{server}/lab/tree/{name}?token={TOKEN}&reset")
-        until(lambda: self.all(".jp-NotebookPanel .jp-Cell"))
-        until(lambda: "Idle" in self.one(".jp-Notebook-ExecutionIndicator").get_attribute(
-            "data-status").title())  # fmt: skip
-        until(self.run_all)
-        until(lambda: self.all(".pierimpact-live svg"))
 
-    def run_all(self):
-        (menu,) = [item for item in self.all("li.lm-MenuBar-item") if item.text == "Run"]
-        menu.click()
-        for item in self.all(".lm-Menu-item[data-command='runmenu:run-all']"):
-            item.click()
-            return True
-        return False
+    def holds_no_error(self):
+        for kind in ("error", "stderr"):
+            assert not self.all(f"[data-mime-type='application/vnd.jupyter.{kind}']")
+        assert not self.all(".jupyter-widgets-error-widget")
 
     def all(self, selector):
         return self.browser.find_elements("css selector", selector)
@@ -135,20 +131,67 @@ class Page:
         for _ in range(times):
             handle.send_keys(key)
 
+    def button(self, words):
+        (button,) = [b for b in self.all(".pierimpact-live button") if b.text == words]
+        return button
+
+    def beside(self, words, what):
+        """Return the box or list beside these words."""
+        return self.browser.find_element(
+            "xpath",
+            f"//div[contains(@class, 'widget-html')][contains(., '{words}')]"
+            f"/following-sibling::div//{what}",
+        )
+
+    def choose(self, words, choice):
+        self.beside(words, f"option[. = '{choice}']").click()
+
+    def type(self, words, text):
+        self.fill(self.beside(words, "input"), text)
+
+    def fill(self, box, text):
+        keys = webdriver.Keys
+        box.send_keys(keys.CONTROL, "a")
+        box.send_keys(text, keys.ENTER)
+
     def readout(self):
         return self.one(".pierimpact-live").text
 
+    def figures(self):
+        return self.all(".pierimpact-live img")
+
     def pixels(self):
         """Return a digest of what each of the explorer's figures looks like."""
-        return [
-            hashlib.sha256(figure.screenshot_as_png).hexdigest()
-            for figure in self.all(".pierimpact-live svg[role=img]")
-        ]
+        return [hashlib.sha256(figure.screenshot_as_png).hexdigest() for figure in self.figures()]
+
+
+class Lesson(Page):
+    """A notebook in JupyterLab, all of it run."""
+
+    def __init__(self, browser, server, name):
+        super().__init__(browser)
+        browser.get(f"{server}/lab/tree/{name}.ipynb?token={TOKEN}&reset")
+        until(lambda: self.all(".jp-NotebookPanel .jp-Cell"))
+        until(lambda: "Idle" in self.one(".jp-Notebook-ExecutionIndicator").get_attribute(
+            "data-status").title())  # fmt: skip
+        until(self.run_all)
+        until(self.figures)
+
+    def run_all(self):
+        (menu,) = [item for item in self.all("li.lm-MenuBar-item") if item.text == "Run"]
+        menu.click()
+        for item in self.all(".lm-Menu-item[data-command='runmenu:run-all']"):
+            item.click()
+            return True
+        return False
+
+    def text(self):
+        return self.one(".jp-Notebook").text
 
 
 @pytest.fixture(scope="module")
 def page(browser, server):
-    return Page(browser, server, "explorer.ipynb")
+    return Lesson(browser, server, "explorer")
 
 
 def force(value):
@@ -162,45 +205,95 @@ def test_the_still_is_hidden_beside_the_live_explorer(page):
 def test_the_figures_follow_a_slider_with_the_packages_values(page):
     keys = webdriver.Keys
     before = page.pixels()
+    assert len(before) == 5  # picture, forces, energy and two spectra
     assert force(Scenario().strike.history.engine_peak.reaction) in page.readout()
     page.press(page.slider("Speed V"), keys.ARROW_LEFT, 10)
     history = Scenario(speed=70.0 / 3.6).strike.history
     until(lambda: force(history.engine_peak.reaction) in page.readout())
     assert force(history.cargo_peak.reaction) in page.readout()
-    after = until(lambda: len(found := page.pixels()) == len(before) and found)
-    assert all(old != new for old, new in zip(before, after, strict=True))
+    until(lambda: all(old != new for old, new in zip(before, page.pixels(), strict=True)))
     page.press(page.slider("Speed V"), keys.ARROW_RIGHT, 10)
     until(lambda: force(Scenario().strike.history.engine_peak.reaction) in page.readout())
 
 
 def test_the_animation_can_be_scrubbed_and_played(page):
+    keys = webdriver.Keys
     history = Scenario().strike.history
-    picture = ".pierimpact-live svg[aria-label^='Collision after']"
 
-    def jump(words):
-        (button,) = [b for b in page.all(".pierimpact-live button") if b.text == words]
-        button.click()
+    def shown(reaction):
+        return lambda: f"R = {force(reaction)}." in page.readout()
 
-    jump("Cargo peak")
-    until(lambda: f"R = {force(history.cargo_peak.reaction)}" in page.one(picture).text)
-    jump("First touch")
-    until(lambda: "R = 0 kN" in page.one(picture).text)
-    page.one(".pierimpact-live .jupyter-widgets.widget-play button").click()
-    until(lambda: "R = 0 kN" not in page.one(picture).text)
+    page.button("Cargo peak").click()
+    until(shown(history.cargo_peak.reaction))
+    assert f"{1e3 * history.cargo_peak.time:.1f} ms" in page.readout()
+    picture, forces, engine, energy, cargo = page.pixels()
+    scrubbed = page.all(".pierimpact-live .widget-play + .widget-slider .noUi-handle")[0]
+    page.press(scrubbed, keys.ARROW_LEFT, 20)
+    until(lambda: f"R = {force(history.cargo_peak.reaction)}." not in page.readout())
+    until(lambda: page.pixels()[0] != picture)
+    until(lambda: forces not in page.pixels() and energy not in page.pixels())
+    assert engine in page.pixels()  # a spectrum does not show time
+    assert cargo in page.pixels()
+    page.button("First touch").click()
+    until(shown(0.0))
+    picture = page.pixels()[0]
+    page.one(".pierimpact-live .widget-play button").click()
+    until(lambda: page.pixels()[0] != picture)
+
+
+def test_a_mechanism_is_said_in_a_sentence_where_the_figures_were(page):
+    page.choose("Base", "free")
+    assert "mechanism" in page.one(".pierimpact-live [role=alert]").text
+    assert not any(figure.is_displayed() for figure in page.figures())
+    page.button("Reset").click()
+    until(lambda: all(figure.is_displayed() for figure in page.figures()))
+
+
+def test_no_contact_is_said_in_a_sentence(page):
+    page.type("Speed V", "20 km/h")
+    until(lambda: "Neither engine nor cargo reaches the pier" in page.readout())
+    page.button("Reset").click()
+    until(lambda: "The engine governs" in page.readout())
 
 
 def test_nonsense_is_answered_in_a_sentence(page):
-    box = page.all(".pierimpact-live input[type=text]")[0]
-    keys = webdriver.Keys
-    box.send_keys(keys.CONTROL, "a")
-    box.send_keys("fast", keys.ENTER)
-    alert = page.one(".pierimpact-live [role=alert]")
-    assert "must be a speed" in alert.text
-    (reset,) = [b for b in page.all(".pierimpact-live button") if b.text == "Reset"]
-    reset.click()
+    page.type("Speed V", "fast")
+    assert "must be a speed" in page.one(".pierimpact-live [role=alert]").text
+    page.button("Reset").click()
     until(lambda: not page.all(".pierimpact-live [role=alert]"))
 
 
 def test_no_error_reached_the_notebook(page):
-    assert not page.all("[data-mime-type='application/vnd.jupyter.error']")
-    assert not page.all("[data-mime-type='application/vnd.jupyter.stderr']")
+    page.holds_no_error()
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_a_lesson_runs_and_its_exercises_answer(browser, server, name):
+    lesson = Lesson(browser, server, name)
+    questions = QUESTIONS[name.partition("_")[2]]
+    until(lambda: f"0 of {len(questions)} solved" in lesson.text())
+    question = next(question for question in questions if not question.choices)
+    box = lesson.all(".pierimpact-live input[placeholder*='number']")[0]
+    unit = f" {DIMENSIONS[question.dimension].si}" if question.dimension else ""
+    before = {feedback.text for feedback in lesson.all("[role=status]")}
+    lesson.fill(box, f"{1e3 * question.answer():.6g}{unit}")
+    until(lambda: {feedback.text for feedback in lesson.all("[role=status]")} != before)
+    assert "out by 1000" in lesson.text()
+    lesson.fill(box, f"{question.answer():.6g}{unit}")
+    until(lambda: f"1 of {len(questions)} solved" in lesson.text())
+    assert "solved after 2 tries" in lesson.text()
+    lesson.holds_no_error()
+
+
+def test_voila_serves_the_explorer_without_code(browser, tmp_path):
+    pytest.importorskip("voila")
+    with served(tmp_path, "voila", "--Voila.ip=127.0.0.1", "explorer.ipynb") as address:
+        browser.get(address)
+        app = Page(browser)
+        until(app.figures)
+        assert not app.all(".jp-CodeCell .jp-InputArea-editor")
+        assert not app.one(".pierimpact-still").is_displayed()
+        app.type("Speed V", "70 km/h")
+        history = Scenario(speed=70.0 / 3.6).strike.history
+        until(lambda: force(history.cargo_peak.reaction) in app.readout())
+        app.holds_no_error()

@@ -1,6 +1,10 @@
 """The teaching notebooks run on a copy, and their pages stand without a kernel."""
 
 import json
+import os
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import nbformat
@@ -8,6 +12,8 @@ import pytest
 from nbclient import NotebookClient
 from nbconvert import HTMLExporter
 from traitlets.config import Config
+
+from pierimpact.exporters import SheetHTMLExporter
 
 HOUSE = Path(__file__).parents[1]
 NOTEBOOKS = [*sorted((HOUSE / "notebooks").glob("0*.ipynb")), HOUSE / "notebooks/explorer.ipynb"]
@@ -39,6 +45,38 @@ def test_its_page_shows_stills_instead_of_widgets(executed):
     assert page.count('class="pierimpact-still"') >= 1
     assert "pierimpact teach" in page
     assert "body.jp-Notebook:not([data-voila]) .pierimpact-live {display:none}" in page
+
+
+def test_its_own_page_needs_no_network(executed):
+    page, _ = SheetHTMLExporter().from_notebook_node(executed)
+    assert "<script" not in page
+    sources = re.findall(r'(?:src|srcset)="([^"]*)"', page)
+    assert sources
+    assert all(source.startswith("data:image/") for source in sources)
+    assert not re.search(r"<link\b|@import|url\(", page)
+    assert "widget-view" not in page
+    prose = "".join(cell.source for cell in executed.cells if cell.cell_type == "markdown")
+    formulas = len(re.findall(r"\$\$.+?\$\$|\$[^$\n]+\$", prose, re.DOTALL))
+    assert page.count("<math") == formulas
+    assert not re.search(
+        r"\$\S", re.sub(r"<annotation .*?</annotation>", "", page, flags=re.DOTALL)
+    )
+    title = re.search("^# (.+)$", prose, re.MULTILINE)[1]
+    assert f"<title>{title}</title>" in page
+    assert "header-section-number" not in page.partition("</style>")[2]
+
+
+def test_nbconvert_alone_executes_and_writes_the_page(tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-m", "nbconvert", "--to", "pierimpact_html", "--execute",
+         f"--output-dir={tmp_path}", HOUSE / "notebooks/02_pier.ipynb"],
+        cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(HOUSE)}, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    page = (tmp_path / "02_pier.html").read_text(encoding="utf-8")
+    assert page.count('<img src="data:image/png;base64,') == 3
+    assert "<math" in page
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

@@ -1,1 +1,6 @@
-"""Figures, drawn with matplotlib from results that are already computed."""
+"""Figures, drawn with matplotlib from results that are already computed.
+
+`style` is under all of them. One subject a file: `collision` (forces and energy in time),
+`spectrum`, `amplification`, `shape`, `comparison`, `influence` and `schematic` draw on axes and
+know nothing of notebooks; `figures` and `validation` make whole figures for pages.
+"""

@@ -1,37 +1,18 @@
 """Figures, drawn as SVG with text as outlines: they look the same whatever fonts there are."""
 
-import io
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 
 from pierimpact.history import CollisionHistory
 from pierimpact.member_forces import MemberForces
+from pierimpact.plots.collision import mark_peaks
+from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, sheet_figure, to_svg
 from pierimpact.sensitivity import Sensitivity, Variation
 from pierimpact.units import printed, unit_of, unit_size
 
-# Colours of Okabe and Ito, told apart by colour-blind readers too.
-BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#8a8a8a"
-
 MODEL, DESIGN = "full model", "design procedure"
-
-_STYLE: Any = {
-    "font.family": "STIXGeneral",
-    "mathtext.fontset": "stix",
-    "font.size": 9.0,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.linewidth": 0.6,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "axes.labelsize": 9.0,
-    "svg.fonttype": "path",
-    "svg.hashsalt": "pierimpact",  # the same drawing gives the same bytes
-}
 
 
 def draw_history(history: CollisionHistory, system: str) -> str:
@@ -55,26 +36,9 @@ def draw_history(history: CollisionHistory, system: str) -> str:
         axes.set_xlabel(f"Time after first touch [{unit_of('time', system)}]")
         axes.set_ylabel(f"Force [{unit_of('force', system)}]")
         axes.set_xlim(0.0, float(time[-1]))
-        _mark_peaks(axes, history, system)
+        colours = dict.fromkeys(("engine", "cargo"), VERMILION)
+        mark_peaks(axes, history, system, unit_size("force", system), colours)
         return to_svg(figure)
-
-
-def _mark_peaks(axes: Any, history: CollisionHistory, system: str) -> None:
-    peaks = {"Engine": history.engine_peak, "Cargo": history.cargo_peak}
-    for name, peak in peaks.items():
-        if peak is None:
-            continue
-        x = peak.time / unit_size("time", system)
-        y = peak.reaction / unit_size("force", system)
-        late = x > 0.7 * axes.get_xlim()[1]  # no room on the right
-        axes.plot([x], [y], "o", color=VERMILION, markersize=4.5, zorder=5)
-        axes.annotate(
-            f"{name} peak {printed(peak.reaction, 'force', system)}",
-            (x, y),
-            xytext=(-6, 5) if late else (6, 5),
-            textcoords="offset points",
-            horizontalalignment="right" if late else "left",
-        )
 
 
 def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
@@ -102,7 +66,7 @@ def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
             axes.axvline(frequency, color=GREY, linewidth=0.8)
             _plot_both(axes, spectrum.values, model, design, system)
             _mark_both(axes, frequency, model[here], design[here], system)
-            _logarithmic(axes)
+            logarithmic(axes)
             axes.set_xlim(float(spectrum.values[0]), float(spectrum.values[-1]))
             axes.set_xlabel("Pier frequency [Hz]")
             axes.set_title(name, loc="left", fontsize=9.0)
@@ -214,7 +178,7 @@ def draw_sensitivity(
             axes.set_xlabel(f"{words} [{unit_of(quantity, system)}]")
             axes.set_xlim(float(variation.values[0]) / size, float(variation.values[-1]) / size)
             if name == "frequency":
-                _logarithmic(axes)
+                logarithmic(axes)
             else:  # the last number would run into the first of the panel beside it
                 axes.locator_params(axis="x", prune="upper")
             axes.grid(axis="y", color="#e2e6e9", linewidth=0.6)
@@ -237,29 +201,6 @@ def _mark_both(axes: Any, x: float, model: float, design: float, system: str) ->
     axes.plot([x], [model / size], "o", color=BLUE, markersize=4.0, zorder=5)
 
 
-def _logarithmic(axes: Any) -> None:
-    axes.set_xscale("log")
-    frequencies = (2, 5, 10, 20, 50, 100, 200)
-    axes.set_xticks(frequencies, map(str, frequencies))
-    axes.minorticks_off()
-
-
 def _name_both(axes: Any) -> None:
     handles, names = axes.get_legend_handles_labels()
     axes.legend(handles[::-1], names[::-1], frameon=False, loc="upper left", fontsize=8.5)
-
-
-@contextmanager
-def sheet_figure(width: float, height: float, **margins: float) -> Iterator[Figure]:
-    """Give a figure of a size in inches, in the style of the sheet."""
-    with rc_context(_STYLE):
-        figure = Figure(figsize=(width, height))
-        figure.subplots_adjust(**margins)
-        yield figure
-
-
-def to_svg(figure: Figure) -> str:
-    """Return a figure as SVG, without its date."""
-    buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", metadata={"Date": None})
-    return buffer.getvalue()

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.design.formulas import amplification
-from pierimpact.plots.figures import BLUE, DESIGN, GREY, MODEL, VERMILION, sheet_figure, to_svg
+from pierimpact.plots.figures import DESIGN, MODEL
+from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, sheet_figure, to_svg
 from pierimpact.reduction import exact_amplification
 from pierimpact.spectra import Spectrum
 from pierimpact.study import Reactions
@@ -72,7 +73,7 @@ def draw_amplification(mass_ratios: Sequence[float], restitution: float, damping
                 fontsize=8.5,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
             )
-        _logarithmic(axes, (0.1, 0.2, 0.5, 1, 2, 5, 10))
+        logarithmic(axes, (0.1, 0.2, 0.5, 1, 2, 5, 10))
         axes.set_xlim(_RATIOS[0], _RATIOS[-1])
         axes.set_ylim(bottom=0.0)
         axes.set_xlabel("Frequency ratio $\\beta = f_\\mathrm{p} / f_i$")
@@ -120,7 +121,7 @@ def draw_routes(engine: Spectrum, cargo: Spectrum, system: str) -> str:
                 linewidth=1.4,
                 label=MODEL,
             )
-            _logarithmic(axes, (2, 5, 10, 20, 50, 100, 200))
+            logarithmic(axes)
             axes.set_xlim(spectrum.frequency[0], spectrum.frequency[-1])
             axes.set_xlabel("Pier frequency [Hz]")
             axes.set_title(name, loc="left", fontsize=9.0)
@@ -204,15 +205,9 @@ def draw_ratios(frequency: Array, exact: Reactions, predicted: Reactions) -> str
             ratio = getattr(predicted, name) / getattr(exact, name)
             axes.plot(frequency, ratio, color=BLUE, **_DOTS)
             axes.set_title(name.capitalize(), loc="left", fontsize=9.0)
-            _logarithmic(axes, (5, 10, 20, 50, 100))
+            logarithmic(axes, (5, 10, 20, 50, 100))
         panels[0].set_ylim(0.7, 1.7)
         panels[1].set_xlabel("Pier frequency [Hz]")
         panels[0].set_ylabel(f"Predicted / {MODEL}")
         figure.set_dpi(300)
         return to_svg(figure)
-
-
-def _logarithmic(axes: Any, ticks: Sequence[float]) -> None:
-    axes.set_xscale("log")
-    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    axes.minorticks_off()

@@ -92,7 +92,7 @@ def check(question: Question, given: str) -> Verdict:
     if isinstance(answer, str):
         if given == answer:
             return Verdict(True, f"Right. {question.reason}".strip())
-        return Verdict(False, "Not that one. Try it in the explorer above, and look again.")
+        return Verdict(False, "Not that one. Look again at what stands above, and try it there.")
     try:
         value = _value(question, given)
     except InputError as error:

@@ -11,13 +11,17 @@ import ipywidgets as ipw
 from IPython.display import display
 
 from pierimpact.checks import InputError
-from pierimpact.teaching.chart import GREY
+from pierimpact.plots.style import MUTED
+from pierimpact.teaching.live import LiveFigure, LiveWords
+from pierimpact.teaching.readouts import refusal
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.teaching.variables import VARIABLES, Variable, case_text, truck_text
-from pierimpact.teaching.views import refusal
 
 #: Pause before a redraw, in which the values of a drag that have already arrived are taken in [s].
 PAUSE = 0.01
+
+#: Size of a figure that takes half the room beside the controls [px].
+HALF = (440.0, 236.0)
 
 # Live widgets and their still stand side by side in a notebook's output; one of them shows. In
 # JupyterLab and Voilà that is the widgets. In a page exported from the notebook, where they would
@@ -32,7 +36,8 @@ HOW_TO_GET_LIVE = (
     "<code>pip install 'pierimpact[teach]'</code> and run <code>pierimpact teach</code>."
 )
 
-Views = Mapping[str, str]
+Views = Mapping[str, LiveFigure | LiveWords]
+Contents = Mapping[str, tuple[Any, ...]]
 
 
 class Control:
@@ -152,51 +157,49 @@ class Explorer:
 
     Parameters
     ----------
-    controls : list of str
-        Names of the variables on show, of `pierimpact.teaching.variables`.
-    hidden : list of str
-        Names of those in a drawer below.
-    draw : callable
-        From a scenario to the views' HTML by name. What it refuses with an `InputError` is shown
-        as a sentence in the first view's place.
-    layout : callable
-        From the views' widgets by name to one widget.
-    defaults : Scenario, optional
-        Values to begin with.
     title : str
         What a still is called.
-    still : callable, optional
-        From the default scenario and its views to the still's HTML, where that is more than the
-        views one below the other.
+    controls, hidden : list of str
+        Names of the variables on show and in a drawer below, of `pierimpact.teaching.variables`.
+    views : dict of str to LiveFigure or LiveWords
+        The views by name.
+    draw : callable
+        From a scenario to what the views show, by name. What it refuses with an `InputError` is
+        shown as a sentence in the views' place.
+    words : callable
+        From a scenario to what the figures show, in a sentence.
+    defaults : Scenario, optional
+        Values to begin with.
     """
 
     def __init__(
         self,
         *,
-        controls: list[str],
-        draw: Callable[[Scenario], Views],
-        layout: Callable[[Mapping[str, ipw.HTML]], ipw.Widget],
         title: str,
-        still: Callable[[Scenario, Views], str] | None = None,
+        controls: list[str],
         hidden: list[str] | None = None,
+        views: Views,
+        draw: Callable[[Scenario], Contents],
+        words: Callable[[Scenario], str],
         defaults: Scenario | None = None,
     ) -> None:
-        self.defaults = defaults or Scenario()
         self.title = title
+        self.defaults = defaults or Scenario()
+        self.views = views
         self.redraws = 0
         self._draw = draw
         self._waiting = False
+        self._copied = ipw.HTML()
         self.controls = {
-            name: Control(VARIABLES[name], getattr(self.defaults, name), self._changed)
+            name: Control(VARIABLES[name], getattr(self.defaults, name), self._set)
             for name in [*controls, *(hidden or [])]
         }
         self.message = ipw.HTML()
-        first = dict(draw(self.defaults))
-        self.views = {name: ipw.HTML(content) for name, content in first.items()}
-        self._still = still(self.defaults, first) if still else "".join(first.values())
-        self._body = layout(self.views)
+        self._body = self._arranged()
         self.widget = self._assemble(controls, hidden or [])
         self.widget.add_class(LIVE)
+        self.redraw()
+        self._still = self._stills(words(self.defaults))
 
     def scenario(self) -> Scenario:
         """Return what the controls say.
@@ -225,7 +228,8 @@ class Explorer:
         self._waiting = False
         self.redraws += 1
         try:
-            views = self._draw(self.scenario())
+            for name, content in self._draw(self.scenario()).items():
+                self.views[name].show(*content)
         except InputError as error:
             self._refuse(f"{error}.")
         except (ArithmeticError, ValueError, RuntimeError):
@@ -233,17 +237,19 @@ class Explorer:
             self._refuse("The model has no result for these values. Change one of them.")
         else:
             self.message.value = ""
-            for name, content in views.items():
-                self.views[name].value = content
             self._body.layout.display = None
 
     def _refuse(self, why: str) -> None:
         self.message.value = refusal(why)
         self._body.layout.display = "none"
 
-    def _changed(self) -> None:
-        """Redraw soon: changes that arrive meanwhile are drawn by the same redraw."""
+    def _set(self) -> None:
+        """Follow a control."""
         self._copied.value = ""
+        self._redraw_soon()
+
+    def _redraw_soon(self) -> None:
+        """Redraw; changes that arrive meanwhile are drawn by the same redraw."""
         if self._waiting:
             return
         try:
@@ -266,7 +272,7 @@ class Explorer:
         if truck:
             parts.append(("my-truck.toml", truck))
         self._copied.value = "".join(
-            f'<div style="font-size:12px;color:{GREY}">One click selects; copy into '
+            f'<div style="font-size:12px;color:{MUTED}">One click selects; copy into '
             f"<code>{name}</code></div>"
             f'<pre style="user-select:all;background:#f6f8fa;padding:8px;font-size:11px;'
             f'line-height:1.35;overflow:auto;max-height:220px">{html.escape(content)}</pre>'
@@ -274,7 +280,6 @@ class Explorer:
         )
 
     def _assemble(self, controls: list[str], hidden: list[str]) -> ipw.Widget:
-        self._copied = ipw.HTML()
         rows: list[ipw.Widget] = [self.controls[name].widget for name in controls]
         if hidden:
             drawer = ipw.Accordion(
@@ -301,18 +306,33 @@ class Explorer:
             layout=ipw.Layout(display="flex", flex_flow="row wrap", grid_gap="4px 20px"),
         )
 
+    def _arranged(self) -> ipw.Widget:
+        """Return the views in the order of their names, as many side by side as there is room."""
+        return side_by_side([view.widget for view in self.views.values()])
+
+    def _stills(self, words: str) -> str:
+        """Return the views as HTML that needs nothing else."""
+        return "".join(view.still(words) for view in self.views.values())
+
     @property
     def still(self) -> str:
         """The views at the default values, as HTML that needs nothing else."""
         return (
-            f'{STYLE}<figure class="{STILL}" style="margin:0;max-width:900px">'
-            f"{self._still}<figcaption>{html.escape(self.title)}. {HOW_TO_GET_LIVE}"
-            f"</figcaption></figure>"
+            f'{STYLE}<figure class="{STILL}" style="margin:0;max-width:900px"><div '
+            f'style="display:flex;flex-wrap:wrap;gap:4px 8px">{self._still}</div>'
+            f"<figcaption>{html.escape(self.title)}. {HOW_TO_GET_LIVE}</figcaption></figure>"
         )
 
     def _ipython_display_(self) -> None:
         display(self.widget)  # type: ignore[no-untyped-call]
         display({"text/html": self.still, "text/plain": self.title}, raw=True)  # type: ignore[no-untyped-call]
+
+
+def side_by_side(widgets: list[ipw.Widget]) -> ipw.Widget:
+    """Return widgets in rows, as many in each as there is room for."""
+    return ipw.Box(
+        widgets, layout=ipw.Layout(display="flex", flex_flow="row wrap", grid_gap="4px 8px")
+    )
 
 
 def _label(words: str) -> str:

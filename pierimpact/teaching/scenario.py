@@ -23,8 +23,9 @@ from pierimpact.truck import Truck
 Array = NDArray[np.float64]
 
 REFERENCE = load_truck("single-unit-8t")
-#: Shortest time that a history covers, so that the axis keeps still while a slider moves [s].
-DURATION = 0.16
+# A history on show covers so much time at least, and more in steps, so that its axis keeps still
+# while a slider moves [s].
+_SHORTEST, _STEP = 0.16, 0.02
 #: Frequencies of a live spectrum [Hz].
 FREQUENCIES = np.geomspace(2.0, 200.0, 121)
 
@@ -115,19 +116,29 @@ class Strike:
 
     @cached_property
     def history(self) -> CollisionHistory:
-        """The collision by the full model."""
-        return simulate(self.truck, self.pier, self.speed, DURATION)
-
-    def reaction(self, time: ArrayLike) -> Array:
-        """Return the reaction at times after first touch [s], in their shape [N]."""
-        history = self.history
-        displacement = between(history.time, history.pier_displacement, history.pier_velocity, time)
-        return self.pier.stiffness * displacement
+        """The collision by the full model, until a while after its last peak."""
+        history = simulate(self.truck, self.pier, self.speed, _SHORTEST)
+        peaks = (history.engine_peak, history.cargo_peak)
+        last = max(peak.time for peak in peaks if peak is not None)
+        end = max(_SHORTEST, _STEP * math.ceil(1.1 * last / _STEP))
+        if history.end.time < end:
+            history = simulate(self.truck, self.pier, self.speed, end)
+        return _until(history, end)
 
     @property
     def curves(self) -> Curves:
         """Spectra for piers of this mass and damping."""
         return curves(self.truck, self.speed, self.pier.mass, self.pier.damping_ratio)
+
+
+def _until(history: CollisionHistory, end: float) -> CollisionHistory:
+    """Return a history without what comes after a time [s]; its peaks stay those of the whole."""
+    steps = [
+        (state, law, min(length, end - state.time))
+        for state, law, length in history.steps
+        if state.time < end
+    ]
+    return replace(history, steps=steps)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -242,3 +253,7 @@ class Scenario:
             speed=self.speed,
             column=self.column.struck_at(self.impact_height),
         )
+
+
+#: The pier of the lessons on reduction and spectra: between soft and stiff.
+EXAMPLE = Scenario(pier_mass=8e3, pier_frequency=30.0)

@@ -1,0 +1,190 @@
+"""One collision against time: the forces with their regimes and peaks, and the energy."""
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from pierimpact.history import CollisionHistory
+from pierimpact.plots.style import (
+    BLUE,
+    BODIES,
+    GREEN,
+    INK,
+    MUTED,
+    ORANGE,
+    PIXEL,
+    PURPLE,
+    SKY,
+    VERMILION,
+    key,
+    panel,
+    round_up,
+)
+from pierimpact.units import printed, unit_size
+
+_TIME = "Time after first touch [ms]"
+_SPRINGS = {"engine spring": VERMILION, "body spring": BLUE}
+_THIN, _THICK = 1.2 * PIXEL, 2.2 * PIXEL
+# The shares of energy from the bottom up: attribute, words, colour.
+_SHARES = (
+    ("kinetic", "motion", SKY),
+    ("pier_elastic", "pier", GREEN),
+    ("truck_elastic", "springs", ORANGE),
+    ("crush", "crush", "#b0493c"),
+    ("friction", "friction", "#a9b1b8"),
+    ("damping", "damping", PURPLE),
+)
+_SAMPLES = 250  # of the energy's outlines
+
+
+class Regime(NamedTuple):
+    """A stretch of time by what presses on the pier."""
+
+    name: str
+    start: float
+    end: float
+
+
+def regimes(history: CollisionHistory) -> list[Regime]:
+    """Return what presses on the pier and when, in order; times in [s]."""
+    time = history.time
+    end = float(time[-1])
+    contacts = {
+        "engine": (history.engine_contact_time, history.engine_force),
+        "cargo": (history.cargo_contact_time, history.body_force),
+    }
+    pressing = np.flatnonzero(history.engine_force + history.body_force > 0.0)
+    last = float(time[min(pressing[-1] + 1, len(time) - 1)])
+    first = min([start for start, _ in contacts.values() if start is not None], default=last)
+    found = [Regime("crumpling", 0.0, first)]
+    for name, (start, force) in contacts.items():
+        if start is not None:
+            gone = time[(time >= start) & (force <= 0.0)]
+            found.append(Regime(name, start, float(gone[0]) if len(gone) else end))
+    return found
+
+
+def forces_panel(figure: Figure) -> Axes:
+    """Return the axes of `draw_forces`."""
+    axes = panel(figure, "Forces", _TIME, "Force [MN]")
+    handles = {
+        name: Line2D([], [], color=colour, linewidth=_THIN) for name, colour in _SPRINGS.items()
+    }
+    key(axes, {**handles, "reaction R": Line2D([], [], color=INK, linewidth=_THICK)})
+    return axes
+
+
+def draw_forces(axes: Axes, history: CollisionHistory) -> None:
+    """Draw the forces of both springs and the reaction, with the regimes and the peaks."""
+    time = 1e3 * history.time
+    forces = [1e-6 * f for f in (history.engine_force, history.body_force, history.reaction)]
+    top = round_up(1.22 * max(float(force.max()) for force in forces))
+    # Downwards in quarters of the height above, which seldom change.
+    depth = math.ceil(-4.0 * min(float(forces[-1].min()), 0.0) / top)
+    axes.set(xlim=_span(history), ylim=(-0.25 * depth * top, top))
+    for name, start, end in regimes(history):
+        colour = BODIES.get(name, MUTED)
+        axes.axvspan(1e3 * start, 1e3 * end, color=colour, alpha=0.13, linewidth=0.0)
+        if 1e3 * (end - start) > 0.016 * len(name) * axes.get_xlim()[1]:
+            axes.annotate(
+                name,
+                (500.0 * (start + end), 0.0),
+                xycoords=("data", "axes fraction"),
+                xytext=(0.0, 4.0 * PIXEL),
+                textcoords="offset points",
+                horizontalalignment="center",
+                color=colour,
+                fontsize=10.0 * PIXEL,
+            )
+    for force, colour in zip(forces, _SPRINGS.values(), strict=False):
+        axes.plot(time, force, color=colour, linewidth=_THIN)
+    axes.plot(time, forces[-1], color=INK, linewidth=_THICK)
+    mark_peaks(axes, history, "SI", 1e6, BODIES)
+
+
+def mark_peaks(
+    axes: Axes,
+    history: CollisionHistory,
+    system: str,
+    unit: float,
+    colours: Mapping[str, str],
+) -> None:
+    """Mark the peaks of engine and cargo on the reaction against time, with their values.
+
+    Parameters
+    ----------
+    axes : Axes
+        Where the reaction is drawn.
+    history : CollisionHistory
+        The collision.
+    system : {"SI", "US"}
+        Units that the values are printed in.
+    unit : float
+        Unit of the vertical axis [N].
+    colours : mapping
+        Colours of "engine" and "cargo".
+    """
+    peaks = {"engine": history.engine_peak, "cargo": history.cargo_peak}
+    for name, peak in peaks.items():
+        if peak is None:
+            continue
+        x, y = peak.time / unit_size("time", system), peak.reaction / unit
+        late = x > 0.6 * axes.get_xlim()[1]  # no room on the right
+        axes.plot([x], [y], "o", color=colours[name], markersize=5.0, zorder=5)
+        axes.annotate(
+            f"{name.capitalize()} peak {printed(peak.reaction, 'force', system)}",
+            (x, y),
+            xytext=(-6, 5) if late else (6, 5),
+            textcoords="offset points",
+            horizontalalignment="right" if late else "left",
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5},
+        )
+
+
+def energy_panel(figure: Figure) -> Axes:
+    """Return the axes of `draw_energy`."""
+    axes = panel(figure, "Energy", _TIME, "Share of the truck’s energy [%]")
+    axes.set_ylim(0.0, 100.0)
+    key(
+        axes,
+        {words: Patch(color=colour) for _, words, colour in _SHARES},
+        handlelength=0.8,
+        handleheight=0.8,
+        handletextpad=0.4,
+        columnspacing=0.7,
+        fontsize=10.0 * PIXEL,
+    )
+    return axes
+
+
+def draw_energy(axes: Axes, history: CollisionHistory) -> None:
+    """Draw where the truck's energy is, as shares that add up to all of it."""
+    axes.set_xlim(_span(history))
+    energy, whole = history.energy, 0.5 * history.truck.mass * history.speed**2
+    few = np.linspace(0.0, history.time[-1], _SAMPLES)
+    shares = (np.interp(few, history.time, getattr(energy, name)) for name, _, _ in _SHARES)
+    axes.stackplot(
+        1e3 * few,
+        *(100.0 / whole * share for share in shares),
+        colors=[colour for _, _, colour in _SHARES],
+        linewidth=0.0,
+    )
+
+
+def draw_instant(axes: Axes, time: float, reaction: float | None = None) -> None:
+    """Mark an instant [s], and where it is on the reaction [N] if that is drawn."""
+    axes.axvline(1e3 * time, color=INK, linewidth=PIXEL, dashes=(3, 2))
+    if reaction is not None:
+        axes.plot([1e3 * time], [1e-6 * reaction], "o", color=INK, markersize=7.0 * PIXEL,
+                  zorder=6)  # fmt: skip
+
+
+def _span(history: CollisionHistory) -> tuple[float, float]:
+    """Return the ends of the time axis [ms], without round-off."""
+    return 0.0, round(1e3 * float(history.time[-1]), 3)

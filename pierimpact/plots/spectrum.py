@@ -1,0 +1,106 @@
+"""A spectrum: the peak reaction of engine or cargo against the pier's frequency."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from pierimpact.plots.style import (
+    BODIES,
+    INK,
+    MUTED,
+    PIXEL,
+    key,
+    logarithmic,
+    mark_here,
+    panel,
+    round_out,
+    round_up,
+)
+from pierimpact.units import printed
+
+Array = NDArray[np.float64]
+
+_FORMULA: Any = {"color": INK, "linewidth": 1.2 * PIXEL, "dashes": (4, 2.5)}
+
+
+def spectrum_panel(figure: Figure, body: str) -> Axes:
+    """Return the axes of `draw_spectrum`, for "engine" or "cargo"."""
+    axes = panel(
+        figure,
+        f"{body.capitalize()} peak",
+        "Pier frequency $f_\\mathrm{p}$ [Hz]",
+        "Peak reaction [MN]",
+    )
+    logarithmic(axes)
+    key(
+        axes,
+        {
+            "full model": Line2D([], [], color=BODIES[body]),
+            "two-degree formula": Line2D([], [], **_FORMULA),
+        },
+    )
+    return axes
+
+
+def draw_spectrum(axes: Axes, frequency: Array, full: Array, reduced: Array, *, body: str) -> None:
+    """Draw the peaks of a body against pier frequency, or say that it does not arrive.
+
+    Parameters
+    ----------
+    axes : Axes
+        Axes of a `spectrum_panel`.
+    frequency : ndarray, shape (n,)
+        Pier frequencies [Hz].
+    full, reduced : ndarray, shape (n,)
+        Peaks by the full model and by the formula for two degrees of freedom; nan where the body
+        does not meet the pier [N].
+    body : {"engine", "cargo"}
+        Which body.
+    """
+    if np.isnan(full).all() and np.isnan(reduced).all():
+        axes.text(
+            0.5,
+            0.45,
+            f"The {body} does not reach the pier at this speed.",
+            transform=axes.transAxes,
+            horizontalalignment="center",
+            color=MUTED,
+        )
+        return
+    axes.plot(frequency, 1e-6 * full, color=BODIES[body])
+    axes.plot(frequency, 1e-6 * reduced, **_FORMULA)
+
+
+def draw_place(
+    axes: Axes,
+    frequency: Array,
+    full: Array,
+    reduced: Array,
+    here: float,
+    reaction: float | None,
+    *,
+    body: str,
+) -> None:
+    """Mark one pier on the spectrum of a body, and set the limits of the axes.
+
+    Parameters
+    ----------
+    axes, frequency, full, reduced, body
+        As in `draw_spectrum`.
+    here : float
+        Frequency of the pier [Hz].
+    reaction : float or None
+        Its peak [N]; None where the body does not meet the pier.
+    """
+    known = [8e5, reaction or 0.0, *full[np.isfinite(full)], *reduced[np.isfinite(reduced)]]
+    axes.set_xlim(round_out(float(frequency[0]), float(frequency[-1]), here))
+    axes.set_ylim(0.0, round_up(1.2e-6 * max(known)))
+    if reaction is None:
+        mark_here(axes, here, None, BODIES[body], "")
+    else:
+        words = str(printed(reaction, "force", "SI"))
+        mark_here(axes, here, 1e-6 * reaction, BODIES[body], words)

@@ -1,0 +1,207 @@
+"""What all figures share: colours, the styles of sheet and screen, axes, and the way to SVG."""
+
+import io
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from matplotlib import rc_context
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+# Colours of Okabe and Ito, told apart by colour-blind readers too.
+BLUE, VERMILION, GREEN = "#0072b2", "#d55e00", "#009e73"
+SKY, ORANGE, PURPLE = "#56b4e9", "#e69f00", "#cc79a7"
+GREY = "#8a8a8a"
+# Of words and lines on a screen.
+INK, MUTED, PALE = "#24292f", "#5f6973", "#d8dee4"
+
+#: One colour a body, in every view: the engine, and the body with its cargo.
+BODIES = {"engine": VERMILION, "cargo": BLUE}
+
+_SHEET: Any = {
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": 9.0,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.6,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "axes.labelsize": 9.0,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "pierimpact",  # the same drawing gives the same bytes
+}
+
+#: Ticks of an axis of frequencies [Hz].
+FREQUENCY_TICKS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
+
+PIXEL = 0.75  # of a style sheet, 1/96 inch [pt]
+SCREEN: Any = {
+    "font.family": "DejaVu Sans",
+    "mathtext.fontset": "dejavusans",
+    "font.size": 11.0 * PIXEL,
+    "text.color": INK,
+    "text.hinting": "none",  # quicker, and not missed at two dots a pixel
+    "axes.titlesize": 12.5 * PIXEL,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.titlepad": 8.0 * PIXEL,
+    "axes.labelsize": 11.0 * PIXEL,
+    "axes.labelcolor": MUTED,
+    "axes.labelpad": 3.0 * PIXEL,
+    "axes.edgecolor": MUTED,
+    "axes.linewidth": PIXEL,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.axisbelow": True,
+    "axes.grid": True,
+    "axes.grid.axis": "y",
+    "grid.color": PALE,
+    "grid.linewidth": 0.8 * PIXEL,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelsize": 10.5 * PIXEL,
+    "ytick.labelsize": 10.5 * PIXEL,
+    "xtick.major.size": 4.0 * PIXEL,
+    "ytick.major.size": 0.0,
+    "legend.fontsize": 10.5 * PIXEL,
+    "legend.frameon": False,
+    "legend.borderpad": 0.0,
+    "legend.borderaxespad": 0.0,
+    "legend.handlelength": 1.7,
+    "legend.handletextpad": 0.5,
+    "legend.columnspacing": 1.4,
+    "lines.linewidth": 1.8 * PIXEL,
+    "lines.markersize": 9.0 * PIXEL,
+    "lines.markeredgewidth": 2.0 * PIXEL,
+}
+
+
+@contextmanager
+def sheet_figure(width: float, height: float, **margins: float) -> Iterator[Figure]:
+    """Give a figure of a size in inches, in the style of the sheet."""
+    with rc_context(_SHEET):
+        figure = Figure(figsize=(width, height))
+        figure.subplots_adjust(**margins)
+        yield figure
+
+
+def to_svg(figure: Figure) -> str:
+    """Return a figure as SVG, without its date."""
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", metadata={"Date": None})
+    return buffer.getvalue()
+
+
+def panel(
+    figure: Figure,
+    title: str,
+    x_label: str,
+    y_label: str,
+    *,
+    left: float = 50.0,
+    right: float = 14.0,
+    top: float = 26.0,
+    bottom: float = 38.0,
+) -> Axes:
+    """Return the one pair of axes of a figure on screen, with margins in pixels.
+
+    Parameters
+    ----------
+    figure : Figure
+        The figure.
+    title, x_label, y_label : str
+        Headings, with units.
+    left, right, top, bottom : float, optional
+        Margins [px].
+    """
+    width, height = 72.0 / PIXEL * figure.get_size_inches()
+    axes = figure.add_axes(
+        (
+            left / width,
+            bottom / height,
+            1.0 - (left + right) / width,
+            1.0 - (top + bottom) / height,
+        )
+    )
+    axes.set(title=title, xlabel=x_label, ylabel=y_label)
+    axes.locator_params(axis="y", nbins=6)
+    return axes
+
+
+def logarithmic(axes: Axes, ticks: Sequence[float] = FREQUENCY_TICKS) -> None:
+    """Make the horizontal axis logarithmic, with ticks at these values."""
+    axes.set_xscale("log")
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+
+
+def key(axes: Axes, handles: Mapping[str, Artist], **options: Any) -> None:
+    """Name lines and areas by a legend above the axes, at the right of the title."""
+    axes.legend(
+        list(handles.values()),
+        list(handles),
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.02),
+        ncols=len(handles),
+        **options,
+    )
+
+
+def name_rows(axes: Axes, names: Sequence[str]) -> None:
+    """Name the rows of horizontal bars, from above, with a grid across them."""
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.tick_params(axis="y", labelsize=11.0 * PIXEL, labelcolor=INK)
+    axes.grid(visible=False, axis="y")
+    axes.grid(visible=True, axis="x")
+
+
+def round_up(value: float) -> float:
+    """Return the next round number, as the end of an axis that seldom has to move."""
+    unit = 10.0 ** math.floor(math.log10(value))
+    steps = (1.0, 1.2, 1.6, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+    return next(unit * step for step in steps if unit * step >= value * 0.999)
+
+
+def round_out(low: float, high: float, value: float) -> tuple[float, float]:
+    """Return the ends of a logarithmic axis, moved out in steps where a value lies beyond them."""
+    if value < 1.05 * low:
+        low = 10.0 ** (math.floor(3.0 * math.log10(value / 1.05)) / 3.0)
+    if value > high / 1.05:
+        high = 10.0 ** (math.ceil(3.0 * math.log10(value * 1.05)) / 3.0)
+    return low, high
+
+
+def mark_here(axes: Axes, x: float, y: float | None, colour: str, words: str) -> None:
+    """Mark with an upright line where one stands on a curve; with a ring, and words on top.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes, with their limits set.
+    x : float
+        Where.
+    y : float or None
+        Value there; None where there is none.
+    colour, words : str
+        Colour of the ring and what the value is, in words.
+    """
+    axes.axvline(x, color=MUTED, linewidth=PIXEL, zorder=1)
+    if y is None:
+        return
+    axes.plot([x], [y], "o", color=colour, markerfacecolor="white", zorder=5)
+    late = axes.transLimits.transform(axes.transScale.transform((x, y)))[0] > 0.6
+    axes.annotate(
+        words,
+        (x, 1.0),
+        xycoords=("data", "axes fraction"),
+        xytext=(-5.0 if late else 5.0, -11.0 * PIXEL),
+        textcoords="offset points",
+        horizontalalignment="right" if late else "left",
+        fontweight="bold",
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
+    )

@@ -1,0 +1,56 @@
+"""Exercises of the lesson on where the model ends."""
+
+from pierimpact.collision import peak_reactions
+from pierimpact.teaching.checker import Question, Trap
+from pierimpact.teaching.questions.common import BODY, engine_peak
+from pierimpact.teaching.scenario import REFERENCE, Scenario
+
+
+def _most_for_engine_peak() -> str:
+    strike = Scenario().strike
+    changed = {
+        "the engine’s mass": Scenario(engine_mass=1.3 * REFERENCE.engine_mass),
+        "the body’s plateau length": Scenario(body_plateau_length=1.3 * BODY.plateau_length),
+        "the friction": Scenario(friction_force=1.3 * REFERENCE.friction_force),
+    }
+    pier = strike.pier
+    peaks = peak_reactions(
+        [scenario.truck for scenario in changed.values()],
+        pier.mass, pier.stiffness, pier.damping_ratio, strike.speed,
+    ).engine  # fmt: skip
+    before = engine_peak(Scenario())
+    return max(zip(changed, peaks, strict=True), key=lambda pair: abs(pair[1] - before))[0]
+
+
+QUESTIONS = (
+    Question(
+        words="Each of these grows by 30 %. Which moves the engine peak most?",
+        choices=("the engine’s mass", "the body’s plateau length", "the friction"),
+        answer=_most_for_engine_peak,
+        reason="It enters through the root of the mass, and through the time it takes to arrive.",
+    ),
+    Question(
+        words=f"The body’s spring has k = {BODY.stiffness / 1e6:g} MN/m and k_u = "
+        f"{BODY.unloading_stiffness / 1e6:g} MN/m. With which fraction of its approach speed "
+        "would the cargo come back from a rigid pier, by its steep spring alone?",
+        answer=lambda: BODY.restitution,
+        traps=(
+            Trap(
+                lambda: BODY.restitution**2,
+                "That is the fraction of the energy; the speed is its root.",
+            ),
+            Trap(lambda: 1.0 / BODY.restitution, "No more speed comes back than arrived."),
+        ),
+        reason="The law that joins loading and unloading is this project’s own.",
+    ),
+    Question(
+        words="Whose numbers are the truck’s parameters in these notebooks?",
+        choices=(
+            "Table 1 of the source paper",
+            "illustrative values of this project",
+            "a crash test",
+        ),
+        answer=lambda: "illustrative values of this project",
+        reason="Enter your own truck’s, with their source, before you rely on a result.",
+    ),
+)

@@ -1,0 +1,78 @@
+"""Exercises of the lesson on the pier as one degree of freedom."""
+
+import math
+
+from pierimpact.teaching.checker import Question, Trap
+from pierimpact.teaching.scenario import Scenario
+from pierimpact.units import printed
+
+_PILLAR = Scenario(column_diameter=0.8, column_height=4.0, top="free", impact_height=1.2)
+
+
+def _flexure() -> float:
+    return _PILLAR.impact_height**3 / (3.0 * _PILLAR.column.flexural_rigidity)
+
+
+def _shear() -> float:
+    return _PILLAR.impact_height / _PILLAR.column.shear_rigidity
+
+
+def _softer_when_higher() -> str:
+    low, high = Scenario(impact_height=1.05), Scenario(impact_height=1.35)
+    stiffer = high.strike.pier.stiffness > low.strike.pier.stiffness
+    return "stiffer" if stiffer else "softer"
+
+
+QUESTIONS = (
+    Question(
+        words="A cantilever is fixed at its base and free at its top. It is struck at z_n = "
+        f"{_PILLAR.impact_height:g} m; EI = "
+        f"{printed(_PILLAR.column.flexural_rigidity, 'flexural rigidity', 'SI')} and κGA = "
+        f"{printed(_PILLAR.column.shear_rigidity, 'shear rigidity', 'SI')}. What is its stiffness "
+        "k_p there?",
+        dimension="stiffness",
+        answer=lambda: _PILLAR.strike.pier.stiffness,
+        traps=(
+            Trap(lambda: 1.0 / _flexure(), "That leaves out the shear deflection."),
+            Trap(lambda: 1.0 / _shear(), "That leaves out the flexural deflection."),
+            Trap(
+                lambda: 1.0 / _flexure() + 1.0 / _shear(),
+                "The deflections of flexure and shear add up, not their stiffnesses.",
+            ),
+        ),
+        reason="So low on a stout column shear matters as much as flexure does.",
+    ),
+    Question(
+        words=f"The column of the explorer at its defaults weighs "
+        f"{printed(Scenario().column.mass_per_length, 'mass per length', 'SI')} and is "
+        f"{Scenario().column_height:g} m high; the integral of φ² over its height is "
+        f"{Scenario().column.struck_at(1.2).shape_integral:.4g} m. What is m_p?",
+        dimension="mass",
+        answer=lambda: Scenario().strike.pier.mass,
+        traps=(
+            Trap(
+                lambda: Scenario().column.mass_per_length * Scenario().column_height,
+                "That is the whole column; only what moves with the impact counts, by φ².",
+            ),
+        ),
+        reason="φ exceeds 1 above the impact, and yet less than the whole column takes part.",
+    ),
+    Question(
+        words=f"A pier has k_p = {printed(500e6, 'stiffness', 'SI', given=True)} and m_p = "
+        f"{printed(5e3, 'mass', 'SI', given=True)}. What is its frequency f_p?",
+        dimension="frequency",
+        answer=lambda: math.sqrt(500e6 / 5e3) / (2.0 * math.pi),
+        traps=(
+            Trap(lambda: math.sqrt(500e6 / 5e3), "That is ω_p in rad/s; f_p is asked for."),
+            Trap(lambda: 500e6 / 5e3 / (2.0 * math.pi), "The root is missing."),
+        ),
+        reason="Most bridge piers struck low down are this stiff, or stiffer.",
+    ),
+    Question(
+        words="The column of the explorer is fixed at its base. When the impact moves up from "
+        "1.05 m to 1.35 m, the pier becomes …",
+        choices=("stiffer", "softer"),
+        answer=_softer_when_higher,
+        reason="The lever is longer: less force for the same deflection.",
+    ),
+)

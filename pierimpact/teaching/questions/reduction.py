@@ -1,0 +1,57 @@
+"""Exercises of the lesson on the reduction to two degrees of freedom."""
+
+import math
+
+from pierimpact.teaching.checker import Question, Trap
+from pierimpact.teaching.questions.common import BODY, ENGINE, ENGINE_NOT_CARGO, KMH
+from pierimpact.teaching.scenario import EXAMPLE, REFERENCE, body_frequency
+
+
+def _beta(body: str) -> float:
+    mass, spring = (
+        (REFERENCE.engine_mass, ENGINE) if body == "engine" else (REFERENCE.body_mass, BODY)
+    )
+    return EXAMPLE.strike.pier.frequency / body_frequency(mass, spring.stiffness)
+
+
+QUESTIONS = (
+    Question(
+        words=f"The engine has m₁ = {REFERENCE.engine_mass:g} kg and k₁ = "
+        f"{ENGINE.stiffness / 1e6:g} MN/m, the pier has f_p = 30 Hz. What is the engine’s "
+        "frequency ratio β?",
+        answer=lambda: _beta("engine"),
+        traps=(
+            Trap(lambda: _beta("cargo"), ENGINE_NOT_CARGO),
+            Trap(lambda: 1.0 / _beta("engine"), "β has the pier’s frequency above the engine’s."),
+        ),
+        reason="Below 1 the pier is slow: it feels the engine’s blow as an impulse.",
+    ),
+    Question(
+        words=f"The engine meets the pier at 50 km/h. What is v₁ √(k₁ m₁), the largest force of "
+        f"its spring on a rigid pier? (m₁ = {REFERENCE.engine_mass:g} kg, k₁ = "
+        f"{ENGINE.stiffness / 1e6:g} MN/m)",
+        dimension="force",
+        answer=lambda: 50.0 * KMH * math.sqrt(ENGINE.stiffness * REFERENCE.engine_mass),
+        traps=(
+            Trap(
+                lambda: 50.0 * KMH * math.sqrt(BODY.stiffness * REFERENCE.body_mass),
+                ENGINE_NOT_CARGO,
+            ),
+        ),
+        reason="Speed, stiffness and mass: nothing else enters a hard impact.",
+    ),
+    Question(
+        words=f"A soft, heavy pier has β = 0.1 for the engine. The engine’s spring unloads on "
+        f"k_u1 = {ENGINE.unloading_stiffness / 1e6:g} MN/m after loading on "
+        f"{ENGINE.stiffness / 1e6:g} MN/m. What is S by the impulse limit?",
+        answer=lambda: (1.0 + ENGINE.restitution) * 0.1,
+        traps=(
+            Trap(lambda: 0.1, "That leaves out the rebound: the engine does not just stop."),
+            Trap(
+                lambda: (1.0 + ENGINE.restitution**2) * 0.1,
+                "The restitution is the root of k over k_u.",
+            ),
+        ),
+        reason="The pier feels a tenth of the force and all of the impulse.",
+    ),
+)

@@ -1,0 +1,60 @@
+"""Exercises of the lesson on the spectra."""
+
+import math
+
+from pierimpact.teaching.checker import Question, Trap
+from pierimpact.teaching.questions.common import (
+    CARGO_NOT_ENGINE,
+    ENGINE_NOT_CARGO,
+    PEAKS,
+    cargo_peak,
+    engine_peak,
+)
+from pierimpact.teaching.scenario import EXAMPLE, FREQUENCIES, Scenario
+
+_SOFT = Scenario(pier_mass=8e3, pier_frequency=10.0)
+
+
+def _crossing() -> float:
+    """Return the frequency from which the engine governs, between two of the spectrum's [Hz]."""
+    full = EXAMPLE.strike.curves.full
+    first = int((full["engine"] > full["cargo"]).argmax())
+    return float(math.sqrt(FREQUENCIES[first - 1] * FREQUENCIES[first]))
+
+
+def _least_by_mass() -> str:
+    light, heavy = (Scenario(truck_mass=m, pier_mass=8e3, pier_frequency=60.0) for m in (8e3, 16e3))
+    changes = (engine_peak(heavy) / engine_peak(light), cargo_peak(heavy) / cargo_peak(light))
+    return PEAKS[0] if abs(changes[0] - 1) < abs(changes[1] - 1) else PEAKS[1]
+
+
+QUESTIONS = (
+    Question(
+        words="Set the pier to 10 Hz and 8 t, the rest to the defaults. What is the engine peak?",
+        dimension="force",
+        answer=lambda: engine_peak(_SOFT),
+        traps=(Trap(lambda: cargo_peak(_SOFT), ENGINE_NOT_CARGO),),
+        reason="The engine’s spring pressed far harder, but the pier was too slow to feel it.",
+    ),
+    Question(
+        words="And the cargo peak of the same pier?",
+        dimension="force",
+        answer=lambda: cargo_peak(_SOFT),
+        traps=(Trap(lambda: engine_peak(_SOFT), CARGO_NOT_ENGINE),),
+        reason="The cargo presses for longer than the pier takes to swing.",
+    ),
+    Question(
+        words="For a pier of 8 t struck at the defaults: from which frequency on does the engine "
+        "govern? (within 5 %)",
+        dimension="frequency",
+        tolerance=0.05,
+        answer=_crossing,
+        reason="A stiff pier feels the engine, a soft one does not.",
+    ),
+    Question(
+        words="Double the truck’s mass to 16 t at 60 Hz. Which peak hardly moves?",
+        choices=PEAKS,
+        answer=_least_by_mass,
+        reason="The engine’s mass did not change.",
+    ),
+)

@@ -1,0 +1,170 @@
+"""What the explorers of the ideas behind the model show, computed from a scenario."""
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pierimpact.cases import collision
+from pierimpact.codes import code_forces
+from pierimpact.collision import peak_reactions
+from pierimpact.column import PierColumn
+from pierimpact.crush import CrushSpring
+from pierimpact.design.formulas import amplification
+from pierimpact.design.procedure import LEVELS, design_values
+from pierimpact.design.reaction import DesignReaction, design_reaction
+from pierimpact.plots.amplification import Amplification
+from pierimpact.plots.comparison import Bar
+from pierimpact.plots.style import BODIES, GREEN, GREY
+from pierimpact.reduction import exact_amplification
+from pierimpact.teaching.scenario import Strike
+
+Array = NDArray[np.float64]
+
+#: Frequency ratios of the amplification: those of all piers, for engine and cargo alike [-].
+RATIOS = np.geomspace(0.02, 50.0, 141)
+#: How far each parameter is moved, as in the parametric study [-].
+CHANGE = 0.3
+_SPRING = {
+    "plateau_force": "plateau force $P$",
+    "plateau_length": "plateau length $d$",
+    "stiffness": "steep stiffness $k$",
+    "unloading_stiffness": "unloading stiffness $k_\\mathrm{u}$",
+}
+_REST = {
+    "engine_mass": "Engine mass $m_1$",
+    "body_mass": "Body mass $m_2$",
+    "friction_force": "Friction $c_\\mathrm{s}$",
+}
+#: The parameters whose influence is shown, from above.
+PARAMETERS = (
+    *(f"{body}: {words}" for body in ("Engine", "Body") for words in _SPRING.values()),
+    *_REST.values(),
+)
+
+
+class ByHeight(NamedTuple):
+    """Equivalent stiffness [N/m] and mass [kg] of a column, each of shape (n,) over height [m]."""
+
+    height: Array
+    stiffness: Array
+    mass: Array
+
+
+@lru_cache(maxsize=4)
+def by_height(column: PierColumn) -> ByHeight:
+    """Return a column's stiffness and mass against the impact height."""
+    heights = np.linspace(0.04, 0.96, 47) * column.height
+    along = [column.struck_at(float(height)) for height in heights]
+    return ByHeight(
+        heights,
+        np.array([struck.stiffness for struck in along]),
+        np.array([struck.mass for struck in along]),
+    )
+
+
+def by_hand(strike: Strike) -> dict[str, float]:
+    """Return the hand procedure's values, with the exact amplification of either body."""
+    case = collision(strike.truck, strike.pier, strike.speed)
+    closed = design_values(case, "hand")
+    names = [[f"{body}_{name}" for body in BODIES] for name in ("beta", "mu", "e")]
+    beta, mu, e = ([float(closed[name]) for name in pair] for pair in names)
+    exact = exact_amplification(beta, mu, e, strike.pier.damping_ratio)
+    known = dict(zip(beta, exact.tolist(), strict=True))
+    values = design_values(case, "hand", lambda b, *_: known[float(b)])
+    return {name: float(value) for name, value in values.items()}
+
+
+@lru_cache(maxsize=8)
+def amplifications(
+    mu: tuple[float, float], e: tuple[float, float], damping_ratio: float
+) -> dict[str, Amplification]:
+    """Return the amplification of engine and cargo against the frequency ratio.
+
+    Parameters
+    ----------
+    mu, e : tuple of float
+        Mass ratio and restitution of engine and cargo [-].
+    damping_ratio : float
+        Of the pier [-].
+    """
+    ratios, restitutions = np.array([mu, e])[:, :, None]
+    exact = exact_amplification(RATIOS, ratios, restitutions, damping_ratio)
+    return {
+        body: Amplification(
+            ratio=RATIOS,
+            exact=exact[row],
+            closed=amplification(RATIOS, mu[row], e[row], damping_ratio),
+            impulse=(1.0 + e[row]) * RATIOS,
+            static=1.0 / np.sqrt(1.0 + mu[row] / RATIOS**2),
+        )
+        for row, body in enumerate(BODIES)
+    }
+
+
+def bars(strike: Strike) -> list[Bar]:
+    """Return the forces of full model, design procedure and codes."""
+    history = strike.history
+    peaks = {"engine": history.engine_peak, "cargo": history.cargo_peak}
+    found = [
+        Bar(f"Full model, {body}", None if peak is None else peak.reaction, BODIES[body], "")
+        for body, peak in peaks.items()
+    ]
+    for level in LEVELS:
+        reaction = design(strike, level).reaction
+        ratio = reaction / history.governing_peak.reaction
+        remark = f"{ratio:.2f} of the full model"
+        found.append(Bar(f"Design procedure, {level}", reaction, GREEN, remark))
+    for code in code_forces(strike.speed, strike.truck.mass):
+        found.append(Bar(code.code, code.along.value, GREY, code.along.remark))
+    return found
+
+
+def design(strike: Strike, level: str = "refined") -> DesignReaction:
+    """Return the design reaction of a collision."""
+    return design_reaction(strike.truck, strike.pier, strike.speed, level)
+
+
+def influences(strike: Strike) -> dict[str, Array | None]:
+    """Return the relative change of each peak with every one of PARAMETERS.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (n, 2), or None
+        For "engine" and "cargo": the change with the parameter smaller and larger, nan where the
+        peak is gone [-]; None where there is no such peak to begin with.
+    """
+    truck = strike.truck
+    factors = (1.0 - CHANGE, 1.0 + CHANGE)
+    trucks = [
+        replace(truck, **{spring: _changed(getattr(truck, spring), name, factor)})  # type: ignore[arg-type]
+        for spring in ("engine_spring", "body_spring")
+        for name in _SPRING
+        for factor in factors
+    ]
+    trucks += [
+        replace(truck, **{name: factor * getattr(truck, name)})
+        for name in _REST
+        for factor in factors
+    ]
+    pier, history = strike.pier, strike.history
+    peaks = peak_reactions(trucks, pier.mass, pier.stiffness, pier.damping_ratio, strike.speed)
+    before = {"engine": history.engine_peak, "cargo": history.cargo_peak}
+    return {
+        body: None if peak is None else getattr(peaks, body).reshape(-1, 2) / peak.reaction - 1.0
+        for body, peak in before.items()
+    }
+
+
+def _changed(spring: CrushSpring, name: str, factor: float) -> CrushSpring:
+    """Return the spring with one value changed, and k_u raised where it would be below k."""
+    values = {field: getattr(spring, field) for field in CrushSpring.__dataclass_fields__}
+    values[name] *= factor
+    values["unloading_stiffness"] = max(
+        values["unloading_stiffness"],
+        values["stiffness"],
+        values["plateau_force"] / values["plateau_length"],
+    )
+    return CrushSpring(**values)
