@@ -8,7 +8,7 @@ import pytest
 
 from pierimpact.calculation import calculate
 from pierimpact.casefile import case_from
-from pierimpact.sheet import pier_steps, shape_steps
+from pierimpact.sheet import design_steps, pier_steps, shape_steps
 from pierimpact.sheet.numbered import CONTINUED
 from pierimpact.units import _unit
 
@@ -167,3 +167,12 @@ def test_the_shape_polynomials_and_the_table_agree():
         equation, s = (below, z / height) if z <= impact else (above, (height - z) / height)
         text = as_python(equation.lines[1].partition(r" \quad")[0].replace(r"\, s", f"*{s!r}"))
         assert value(text) == pytest.approx(phi, rel=1e-3, abs=1e-4)
+
+
+@pytest.mark.parametrize(("speed", "stops"), [("30 km/h", True), ("80 km/h", False)])
+def test_the_time_of_a_contact_that_does_not_come_about_says_so(speed, stops):
+    case = calculation(speed=speed)
+    for part, label in (("engine", "eq-engine_time"), ("contact", "eq-cargo_time")):
+        steps = design_steps.procedure_steps(case, part).equations
+        (source,) = (step.source for step in steps if step.label == label)
+        assert ("stops before" in source) == stops
