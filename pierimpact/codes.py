@@ -85,8 +85,9 @@ def aashto_lrfd() -> CodeForce:
         clause="3.6.5",
         along=Sourced(600.0 * KIP, CITED),
         height=Sourced(1.5, CITED),
-        note="From two full-scale tests. The clause number is from memory, and that the force acts "
-        "within 15° of the travel: unverified.",
+        note="From two full-scale tests. Given in kip by the source paper, else converted. "
+        "The clause number is from memory, and that the force acts within 15° of the travel: "
+        "unverified.",
     )
 
 
@@ -98,7 +99,8 @@ def aashto_lrfd_former() -> CodeForce:
         clause="3.6.5",
         along=Sourced(400.0 * KIP, CITED),
         height=Sourced(1.2, CITED),
-        note="In use for nearly 20 years. The clause number is from memory.",
+        note="In use for nearly 20 years. Given in kip, else converted. The clause number is from "
+        "memory.",
     )
 
 

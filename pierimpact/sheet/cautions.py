@@ -41,7 +41,7 @@ def cautions(calculation: Calculation) -> list[str]:
     """Return all there is to know before relying on the results, a sentence each."""
     case = calculation.case
     sentences = [
-        f"The {name} exceeds the resistance, {rounded(ratio, 3)} times."
+        f"The {name} is {rounded(ratio, 3)} times the resistance."
         for name, ratio in calculation.utilisations.items()
         if ratio > 1.0
     ]

@@ -146,7 +146,8 @@ def hand_table(calculation: Calculation) -> Block:
         )
     return Table(
         label="tab-hand",
-        caption="The hand level: a short check from the same starting values.",
+        caption="The hand level: a short check from the same starting values. The plain numbers in "
+        "the humps and in η are fitted to the full model.",
         columns=[
             Column(heading="Step", wide=True),
             Column(heading="Equation"),
