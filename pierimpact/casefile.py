@@ -69,6 +69,9 @@ def read_case(path: str | Path) -> Case:
         raise InputError(f"{path.name}: {error}") from None
 
 
+_COLON = "mapping values are not allowed here"  # what YAML says of a second colon in a line
+
+
 def case_values(path: Path) -> dict[str, object]:
     """Return the keys and values of a case file as YAML has them, unchecked."""
     try:
@@ -79,7 +82,8 @@ def case_values(path: Path) -> dict[str, object]:
         raise InputError("is not UTF-8 text") from None
     except yaml.MarkedYAMLError as error:
         line = f"line {error.problem_mark.line + 1}: " if error.problem_mark else ""
-        raise InputError(f"{line}not valid YAML: {error.problem}") from None
+        remedy = ": put text that has a colon in it in quotes" if error.problem == _COLON else ""
+        raise InputError(f"{line}not valid YAML: {error.problem}{remedy}") from None
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         reason = str(error).partition("\n")[0]
         raise InputError(f"not valid YAML: {reason}") from None

@@ -118,6 +118,8 @@ def folder_for(output_dir: Path, name: str) -> Iterator[Path]:
     try:
         output_dir.mkdir(parents=True, exist_ok=True)
         folder = tempfile.TemporaryDirectory(dir=output_dir, prefix=f".{name}-")
+    except (FileExistsError, NotADirectoryError):
+        raise OutputError(f"output {output_dir} must be a folder, and there is a file") from None
     except OSError as error:
         raise OutputError(f"output {output_dir} cannot be written to: {error.strerror}") from None
     with folder:

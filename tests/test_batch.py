@@ -392,7 +392,7 @@ def test_an_output_that_cannot_be_is_told_once(tmp_path):
     cases = [write_case(tmp_path / f"{name}.yaml") for name in "abc"]
     output = tmp_path / "file"
     output.touch()
-    with pytest.raises(OutputError, match=rf"output {output} cannot be written to"):
+    with pytest.raises(OutputError, match=rf"output {output} must be a folder"):
         write_reports(cases, output, progress=False)
 
 

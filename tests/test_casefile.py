@@ -203,6 +203,10 @@ def test_a_truck_file_is_looked_for_beside_the_case_file(tmp_path):
         (b"just words", "must be keys and values (key: value), got 'just words'"),
         (b"project: \xff", "is not UTF-8 text"),
         (b"project: [a\nspeed: 3", "line 2: not valid YAML"),
+        (
+            b"project: Bridge: north",
+            "mapping values are not allowed here: put text that has a colon",
+        ),
         (b"project: a\n\tspeed: 3", "line 2: not valid YAML"),
         (b"speed: 80 km/h\nspeed: 90 km/h", "speed is given twice"),
         (b"project: !!python/object:os.system x", "line 1: not valid YAML"),

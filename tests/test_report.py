@@ -413,7 +413,7 @@ def test_a_bad_case_writes_nothing(tmp_path):
 
 def test_a_folder_that_cannot_be(si, tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(InputError, match="cannot be written to"):
+    with pytest.raises(InputError, match="must be a folder, and there is a file"):
         write_report(si[0], tmp_path / "file")
 
 
