@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.checks import InputError, positive
-from pierimpact.history import CollisionHistory
+from pierimpact.history import CollisionHistory, between
 
 Array = NDArray[np.float64]
 
@@ -73,15 +73,8 @@ def largest_average_force(history: CollisionHistory, window: float) -> AverageFo
 
 
 def _at(t: Array | float, time: Array, impulse: Array, force: Array) -> Array:
-    """Return the impulse at any times: a cubic between samples, of which force is the slope."""
-    t = np.maximum(t, 0.0)
-    left = np.clip(np.searchsorted(time, t, side="right") - 1, 0, len(time) - 2)
-    width = time[left + 1] - time[left]
-    s = (t - time[left]) / width
-    rise = impulse[left + 1] - impulse[left]
-    bend = s * (1.0 - s) * ((1.0 - s) * force[left] - s * force[left + 1]) * width
-    result: Array = impulse[left] + s**2 * (3.0 - 2.0 * s) * rise + bend
-    return result
+    """Return the impulse at any times; it is zero before first touch, and force is its slope."""
+    return between(time, impulse, force, np.maximum(t, 0.0))
 
 
 def _before(t: Array, time: Array, force: Array) -> Array:

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.motion import (
     ARRAYS,
@@ -34,6 +34,26 @@ ENGINE, BODY, PIER = range(3)  # as in a series
 # No mode turns by more than three radians in a piece: a chord between two of these samples misses
 # its crest by less than 0.2 % of the amplitude.
 FRACTIONS = np.linspace(0.0, 1.0, 25)
+
+
+def between(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
+    """Return a motion between its samples, by the cubic that has their values and rates.
+
+    Parameters
+    ----------
+    time, value, rate : ndarray, shape (n,)
+        Samples: times, in ascending order [s], values and their derivatives.
+    at : array_like
+        Times within those of the samples [s].
+    """
+    at = np.asarray(at, dtype=float)
+    after = np.clip(np.searchsorted(time, at), 1, len(time) - 1)
+    before = after - 1
+    length = time[after] - time[before]
+    s = (at - time[before]) / length
+    left = value[before] + s * (3.0 * s - 2.0 * s**2) * (value[after] - value[before])
+    turn = (1.0 - s) * rate[before] - s * rate[after]
+    return np.asarray(left + length * s * (1.0 - s) * turn)
 
 
 @dataclass(frozen=True, kw_only=True)

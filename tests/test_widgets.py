@@ -14,7 +14,7 @@ from pierimpact.catalogue import read_truck_file
 from pierimpact.teaching.explorer import PAUSE
 from pierimpact.teaching.live import LiveWords
 from pierimpact.teaching.readouts import outcome
-from pierimpact.teaching.scenario import REFERENCE, Scenario, between
+from pierimpact.teaching.scenario import REFERENCE, Scenario
 from pierimpact.teaching.variables import CRUSH, VARIABLES, case_text, truck_text
 from pierimpact.units import printed
 
@@ -200,13 +200,6 @@ def test_the_picture_shows_the_instant_asked_for():
         words = explorer.views["instant"].widget.value
         assert f"{1e3 * moment:.1f} ms" in words
         assert f"R = {printed(reaction, 'force', 'SI')}" in words
-
-
-def test_a_cubic_is_found_between_its_samples():
-    time = np.array([0.0, 0.3, 1.0, 1.1, 2.0])
-    cubic = np.polynomial.Polynomial([1.0, -2.0, 0.5, 3.0])
-    at = np.linspace(0.0, 2.0, 50)
-    assert between(time, cubic(time), cubic.deriv()(time), at) == pytest.approx(cubic(at))
 
 
 def test_the_case_file_gives_the_same_collision(tmp_path):

@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.crush import CrushSpring
+from pierimpact.history import between
 from pierimpact.plots.schematic import SWING, Frame, Scene
-from pierimpact.teaching.scenario import Strike, between
+from pierimpact.teaching.scenario import Strike
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from pierimpact.cases import collisions
 from pierimpact.catalogue import load_truck
@@ -71,26 +71,6 @@ def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -
 def body_frequency(mass: float, stiffness: float) -> float:
     """Frequency f_i = √(k_i/m_i)/2π of a body on its steep spring [Hz]."""
     return math.sqrt(stiffness / mass) / (2.0 * math.pi)
-
-
-def between(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
-    """Return a motion between its samples, by the cubic that has their values and rates.
-
-    Parameters
-    ----------
-    time, value, rate : ndarray, shape (n,)
-        Samples: times, in ascending order [s], values and their derivatives.
-    at : array_like
-        Times within those of the samples [s].
-    """
-    at = np.asarray(at, dtype=float)
-    after = np.clip(np.searchsorted(time, at), 1, len(time) - 1)
-    before = after - 1
-    length = time[after] - time[before]
-    s = (at - time[before]) / length
-    left = value[before] + s * (3.0 * s - 2.0 * s**2) * (value[after] - value[before])
-    turn = (1.0 - s) * rate[before] - s * rate[after]
-    return np.asarray(left + length * s * (1.0 - s) * turn)
 
 
 @dataclass(frozen=True, kw_only=True)
