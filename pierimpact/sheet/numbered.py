@@ -245,4 +245,4 @@ def align_decimals(cells: Sequence[Inline]) -> list[Inline]:
 
 
 def _numbered(kind: str) -> str:
-    return f'<span class="number" data-count="{kind}">{kind}</span> '
+    return f'<span class="number" data-count="{kind}">{kind}.</span> '
