@@ -5,16 +5,19 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from pierimpact import CircularSection, PierColumn, load_truck
 from pierimpact.plots import (
     amplification,
     collision,
     comparison,
+    figures,
     influence,
     schematic,
     shape,
     spectrum,
 )
 from pierimpact.plots.style import BODIES
+from pierimpact.sensitivity import sensitivity
 from pierimpact.teaching import theory
 from pierimpact.teaching.animation import Animation
 from pierimpact.teaching.scenario import Scenario
@@ -215,3 +218,20 @@ def test_the_picture_moves_with_the_pier(scenario):
     ]
     assert max(fronts) <= frame.pier * animation.scene.exaggeration + 1e-9
     assert abs(frame.pier) * animation.scene.exaggeration <= schematic.SWING * 1.001
+
+
+@pytest.mark.parametrize("system", ["SI", "US"])
+def test_sensitivities_fill_their_axes(monkeypatch, system):
+    monkeypatch.setattr(figures, "to_svg", lambda figure: figure)
+    truck, speed, height = load_truck("single-unit-8t"), 80.0 / 3.6, 1.2
+    column = PierColumn(
+        height=5.0, section=CircularSection(diameter=0.9), elastic_modulus=25e9, density=2400.0
+    )
+    pier = column.equivalent(impact_height=height)
+    found = sensitivity(truck, column, pier, height, speed)
+    here = {"speed": speed, "mass": truck.mass, "impact_height": height}
+    here["frequency"] = pier.frequency
+    figure = figures.draw_sensitivity(found, here, (1e6, 1e6), system)
+    for axes in figure.axes:
+        lines = [line.get_xdata() for line in axes.lines if len(line.get_xdata()) > 2]
+        assert axes.get_xlim() == pytest.approx((lines[0][0], lines[0][-1]))

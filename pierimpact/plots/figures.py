@@ -176,11 +176,11 @@ def draw_sensitivity(
             _plot_both(axes, variation.values / size, variation.model, variation.design, system)
             _mark_both(axes, here[name] / size, *force, system)
             axes.set_xlabel(f"{words} [{unit_of(quantity, system)}]")
-            axes.set_xlim(float(variation.values[0]) / size, float(variation.values[-1]) / size)
             if name == "frequency":
                 logarithmic(axes)
             else:  # the last number would run into the first of the panel beside it
                 axes.locator_params(axis="x", prune="upper")
+            axes.set_xlim(float(variation.values[0]) / size, float(variation.values[-1]) / size)
             axes.grid(axis="y", color="#e2e6e9", linewidth=0.6)
         grid[0, 0].set_ylim(bottom=0.0)
         for axes in grid[:, 0]:
