@@ -374,7 +374,7 @@ def follow_all(
             more = next(waiting, None)
             running = join(running, more) if more else running
         if not len(running.place):
-            return outcomes
+            break
     return outcomes
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pierimpact.plots.style import (
     BODIES,
-    INK,
+    FORMULA,
     MUTED,
     ORANGE,
     PIXEL,
@@ -29,7 +29,7 @@ _THIN = 1.4 * PIXEL
 _LINES: dict[str, Any] = {
     "impulse": {"color": ORANGE, "linewidth": _THIN},
     "static": {"color": MUTED, "linewidth": _THIN},
-    "closed form": {"color": INK, "linewidth": 1.2 * PIXEL, "dashes": (4, 2.5)},
+    "closed form": FORMULA,
 }
 
 

@@ -1,7 +1,5 @@
 """A spectrum: the peak reaction of engine or cargo against the pier's frequency."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -10,9 +8,8 @@ from numpy.typing import NDArray
 
 from pierimpact.plots.style import (
     BODIES,
-    INK,
+    FORMULA,
     MUTED,
-    PIXEL,
     key,
     logarithmic,
     mark_here,
@@ -23,8 +20,6 @@ from pierimpact.plots.style import (
 from pierimpact.units import printed
 
 Array = NDArray[np.float64]
-
-_FORMULA: Any = {"color": INK, "linewidth": 1.2 * PIXEL, "dashes": (4, 2.5)}
 
 
 def spectrum_panel(figure: Figure, body: str) -> Axes:
@@ -40,7 +35,7 @@ def spectrum_panel(figure: Figure, body: str) -> Axes:
         axes,
         {
             "full model": Line2D([], [], color=BODIES[body]),
-            "two-degree formula": Line2D([], [], **_FORMULA),
+            "two-degree formula": Line2D([], [], **FORMULA),
         },
     )
     return axes
@@ -72,7 +67,7 @@ def draw_spectrum(axes: Axes, frequency: Array, full: Array, reduced: Array, *, 
         )
         return
     axes.plot(frequency, 1e-6 * full, color=BODIES[body])
-    axes.plot(frequency, 1e-6 * reduced, **_FORMULA)
+    axes.plot(frequency, 1e-6 * reduced, **FORMULA)
 
 
 def draw_place(
