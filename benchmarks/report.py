@@ -38,11 +38,13 @@ from pathlib import Path
 times = [time.perf_counter()]
 def lap():
     times.append(time.perf_counter())
-from pierimpact import exporters, report; from pierimpact.calculation import calculate; lap()
-case = report.read_case(sys.argv[1]); calculate(case); lap()
-report.import_libraries(); lap()
+from pierimpact.report import exporters, write
+from pierimpact.report.calculation import calculate
+lap()
+case = write.read_case(sys.argv[1]); calculate(case); lap()
+write.import_libraries(); lap()
 path = Path(sys.argv[1])
-notebook = report._execute(report._parameters(path), path.parent, Path("x.ipynb"), lambda: None)
+notebook = write._execute(write._parameters(path), path.parent, Path("x.ipynb"), lambda: None)
 lap()
 exporters.SheetHTMLExporter().from_notebook_node(notebook); lap()
 exporters.SheetPDFExporter().from_notebook_node(notebook); lap()

@@ -4,37 +4,18 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pierimpact.catalogue import load_truck
     from pierimpact.checks import InputError
-    from pierimpact.collision import peak_reactions, simulate
-    from pierimpact.column import PierColumn
-    from pierimpact.crush import CrushSpring
+    from pierimpact.collision.simulate import peak_reactions, simulate
     from pierimpact.design.reaction import design_reaction, design_reactions
-    from pierimpact.pier import EquivalentPier
-    from pierimpact.sections import CircularSection, RectangularSection
-    from pierimpact.spectra import cargo_spectrum, engine_spectrum
-    from pierimpact.truck import Truck
+    from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
+    from pierimpact.files.trucks import load_truck
+    from pierimpact.pier.column import PierColumn
+    from pierimpact.pier.equivalent import EquivalentPier
+    from pierimpact.pier.sections import CircularSection, RectangularSection
+    from pierimpact.vehicle.crush import CrushSpring
+    from pierimpact.vehicle.truck import Truck
 
 __version__ = "0.1.0"
-
-# Each public name is imported on first use, so that `import pierimpact` costs nothing that the
-# caller does not need.
-_HOMES = {
-    "CircularSection": "sections",
-    "CrushSpring": "crush",
-    "EquivalentPier": "pier",
-    "InputError": "checks",
-    "PierColumn": "column",
-    "RectangularSection": "sections",
-    "Truck": "truck",
-    "cargo_spectrum": "spectra",
-    "design_reaction": "design.reaction",
-    "design_reactions": "design.reaction",
-    "engine_spectrum": "spectra",
-    "load_truck": "catalogue",
-    "peak_reactions": "collision",
-    "simulate": "collision",
-}
 
 __all__ = [
     "CircularSection",
@@ -48,16 +29,38 @@ __all__ = [
     "design_reaction",
     "design_reactions",
     "engine_spectrum",
+    "exercises",
     "load_truck",
     "peak_reactions",
     "simulate",
+    "tables",
+    "widgets",
 ]
+
+# Each public name is imported on first use, so that `import pierimpact` costs nothing that the
+# caller does not need.
+_HOMES = {
+    "checks": ["InputError"],
+    "collision.simulate": ["peak_reactions", "simulate"],
+    "design.reaction": ["design_reaction", "design_reactions"],
+    "design.spectra": ["cargo_spectrum", "engine_spectrum"],
+    "files.trucks": ["load_truck"],
+    "pier.column": ["PierColumn"],
+    "pier.equivalent": ["EquivalentPier"],
+    "pier.sections": ["CircularSection", "RectangularSection"],
+    "vehicle.crush": ["CrushSpring"],
+    "vehicle.truck": ["Truck"],
+}
+_MODULES = ("exercises", "tables", "widgets")
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    if name in _MODULES:
+        return import_module(f"{__name__}.teaching.{name}")
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(f"{__name__}.{home}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

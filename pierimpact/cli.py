@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import pierimpact
 from pierimpact.checks import InputError
-from pierimpact.teach import DEFAULT_FOLDER, TeachError, open_notebooks, serve_app
+from pierimpact.teaching.launch import DEFAULT_FOLDER, TeachError, open_notebooks, serve_app
 
 _REPORT = """\
 Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
@@ -89,7 +89,7 @@ def _teach(app: bool, folder: str, browser: bool) -> int:
 
 def _report(paths: Sequence[str], output: str) -> int:
     try:
-        from pierimpact.batch import find_cases, write_reports
+        from pierimpact.report.batch import find_cases, write_reports
     except ModuleNotFoundError as error:
         _complain(f"reports need {error.name}: pip install 'pierimpact[report]'")
         return 1

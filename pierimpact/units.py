@@ -54,7 +54,7 @@ DIMENSIONS = {
 _NUMBER = re.compile(
     r"\s*([-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|(?:nan|inf)\b))\s*(.*?)\s*", re.ASCII
 )
-_FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?\d)?"
+_FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?[1-9])?"
 _EXPRESSION = re.compile(rf"{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
 _MARKS = str.maketrans({"·": "*", "²": "^2", "³": "^3", "⁴": "^4"})
 

@@ -5,8 +5,8 @@ import json
 
 from nbformat import v4
 
-from pierimpact.exporters import SheetHTMLExporter
-from pierimpact.report import report_notebook
+from pierimpact.report.exporters import SheetHTMLExporter
+from pierimpact.report.write import report_notebook
 
 
 def page_of(values):

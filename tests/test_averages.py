@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pierimpact import CrushSpring, EquivalentPier, Truck, load_truck, simulate
-from pierimpact.averages import largest_average_force
 from pierimpact.checks import InputError
+from pierimpact.collision.averages import largest_average_force
 
 PIER = EquivalentPier(mass=8e3, stiffness=284e6, damping_ratio=0.05)
 

@@ -17,14 +17,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pierimpact import batch as batch_module
 from pierimpact import cli
-from pierimpact.batch import OutputError, find_cases, write_reports
-from pierimpact.calculation import calculate
-from pierimpact.casefile import read_case
 from pierimpact.checks import InputError
-from pierimpact.report import Report, ReportError, stages
-from pierimpact.sheet.summary_table import Row, no_formula, summary_blocks, summary_csv
+from pierimpact.files.case import read_case
+from pierimpact.report import batch as batch_module
+from pierimpact.report.batch import OutputError, find_cases, write_reports
+from pierimpact.report.calculation import calculate
+from pierimpact.report.summary import Row, no_formula, summary_blocks, summary_csv
+from pierimpact.report.write import Report, ReportError, stages
 from pierimpact.units import QUANTITIES, parse, printed
 
 ROOT = Path(__file__).parent.parent
@@ -379,7 +379,7 @@ def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
         raise ValueError("no CSV")
 
     monkeypatch.setattr(batch_module, "write_report", write)
-    monkeypatch.setattr("pierimpact.sheet.summary_table.summary_csv", fail)
+    monkeypatch.setattr("pierimpact.report.summary.summary_csv", fail)
     output = tmp_path / "out"
     assert cli.main(["report", *map(str, cases), "--output", str(output)]) == 1
     lines = capsys.readouterr()

@@ -28,8 +28,8 @@ from pierimpact import (
     design_reaction,
     simulate,
 )
-from pierimpact.calculation import calculate
-from pierimpact.casefile import case_from
+from pierimpact.files.case import case_from
+from pierimpact.report.calculation import calculate
 
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
 US_CASE = {

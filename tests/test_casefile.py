@@ -9,15 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import pierimpact
-from pierimpact.casefile import (
+from pierimpact.checks import InputError
+from pierimpact.files.case import (
     Case,
     case_from,
     case_from_notebook,
     concrete_modulus,
     read_case,
 )
-from pierimpact.checks import InputError
-from pierimpact.inputs import KEYS, PHYSICAL_KEYS
+from pierimpact.files.inputs import KEYS, PHYSICAL_KEYS
 
 CASE = {
     "project": "Example overpass",

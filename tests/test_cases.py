@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from pierimpact import EquivalentPier, InputError, load_truck
-from pierimpact.cases import collision, collisions
-from pierimpact.motion import CHUNK
+from pierimpact.collision.groups import CHUNK
+from pierimpact.collision.parameters import collision, collisions
 
 TRUCK = load_truck("single-unit-8t")
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 import pierimpact
-from pierimpact.catalogue import STATUSES, load_truck, read_truck_file, truck_names
 from pierimpact.checks import InputError
-from pierimpact.crush import CrushSpring
+from pierimpact.files.trucks import STATUSES, load_truck, read_truck_file, truck_names
+from pierimpact.vehicle.crush import CrushSpring
 
 CATALOGUE = Path(pierimpact.__file__).parent / "trucks"
 REFERENCE = (CATALOGUE / "single-unit-8t.toml").read_text("utf-8")

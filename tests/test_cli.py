@@ -6,8 +6,8 @@ import pytest
 
 import pierimpact
 from pierimpact import cli
-from pierimpact.casefile import read_case
-from pierimpact.report import Report, ReportError
+from pierimpact.files.case import read_case
+from pierimpact.report.write import Report, ReportError
 
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
 
@@ -65,7 +65,7 @@ def test_what_is_printed(monkeypatch, capsys):
     def made(case, output, on_stage):
         return Report(*files, ["a letter is missing"], read_case(EXAMPLE))
 
-    monkeypatch.setattr("pierimpact.batch.write_report", made)
+    monkeypatch.setattr("pierimpact.report.batch.write_report", made)
     assert cli.main(["report", "a.yaml"]) == 0
     printed = capsys.readouterr()
     assert printed.out.split() == ["a.ipynb", "a.html", "a.pdf"]
@@ -76,7 +76,7 @@ def test_a_failure_is_one_line_and_code_1(monkeypatch, capsys):
     def fail(case, output, on_stage):
         raise ReportError("a.yaml: the notebook failed: ValueError: why; it is kept as x")
 
-    monkeypatch.setattr("pierimpact.batch.write_report", fail)
+    monkeypatch.setattr("pierimpact.report.batch.write_report", fail)
     assert cli.main(["report", "a.yaml"]) == 1
     assert capsys.readouterr().err == (
         "pierimpact: a.yaml: the notebook failed: ValueError: why; it is kept as x\n"
@@ -87,6 +87,6 @@ def test_interrupted(monkeypatch, capsys):
     def interrupt(case, output, on_stage):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("pierimpact.batch.write_report", interrupt)
+    monkeypatch.setattr("pierimpact.report.batch.write_report", interrupt)
     assert cli.main(["report", "a.yaml"]) == 130
     assert capsys.readouterr().err == "pierimpact: interrupted, 0 of 1 reports written\n"

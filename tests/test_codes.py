@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pierimpact import InputError
-from pierimpact.codes import (
+from pierimpact.design.codes import (
     ROAD_CLASSES,
     STATUSES,
     aashto_lrfd,

@@ -17,14 +17,13 @@ from pierimpact import (
     load_truck,
     peak_reactions,
     simulate,
-    study,
 )
-from pierimpact.cases import collisions
-from pierimpact.design import domain
+from pierimpact.collision.groups import take
+from pierimpact.collision.parameters import collisions
+from pierimpact.design import domain, study
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reaction import MUCH_SMALLER, nominal_impact_height
-from pierimpact.motion import take
-from pierimpact.reduction import exact_amplification
+from pierimpact.design.reduction import exact_amplification
 
 GENERATED = settings(deadline=None, derandomize=True, max_examples=60)
 

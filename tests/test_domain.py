@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from pierimpact import EquivalentPier, load_truck
-from pierimpact.cases import collision
+from pierimpact.collision.groups import take
+from pierimpact.collision.parameters import collision
 from pierimpact.design import domain
-from pierimpact.motion import take
 
 SIZE = 4000
 

@@ -7,7 +7,7 @@ from generated_collisions import HARD, collisions
 from scipy.interpolate import BPoly
 
 from pierimpact import simulate
-from pierimpact.history import between
+from pierimpact.collision.history import between
 
 GENERATED = collisions(100, seed=30)
 EVERY = pytest.mark.parametrize(

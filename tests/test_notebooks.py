@@ -13,7 +13,7 @@ from nbclient import NotebookClient
 from nbconvert import HTMLExporter
 from traitlets.config import Config
 
-from pierimpact.exporters import SheetHTMLExporter
+from pierimpact.report.exporters import SheetHTMLExporter
 
 HOUSE = Path(__file__).parents[1]
 NOTEBOOKS = [*sorted((HOUSE / "notebooks").glob("0*.ipynb")), HOUSE / "notebooks/explorer.ipynb"]

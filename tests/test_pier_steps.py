@@ -6,10 +6,12 @@ import re
 
 import pytest
 
-from pierimpact.calculation import calculate
-from pierimpact.casefile import case_from
-from pierimpact.sheet import design_steps, pier_steps, shape_steps
-from pierimpact.sheet.numbered import CONTINUED
+from pierimpact.files.case import case_from
+from pierimpact.report.calculation import calculate
+from pierimpact.report.document.numbered import CONTINUED
+from pierimpact.report.sheet import design_procedure as design_steps
+from pierimpact.report.sheet import equivalent_pier as pier_steps
+from pierimpact.report.sheet import shape_steps
 from pierimpact.units import _unit
 
 SHAPES = {

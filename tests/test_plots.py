@@ -6,6 +6,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from pierimpact import CircularSection, PierColumn, load_truck
+from pierimpact.design.sensitivity import sensitivity
 from pierimpact.plots import (
     amplification,
     collision,
@@ -17,7 +18,6 @@ from pierimpact.plots import (
     spectrum,
 )
 from pierimpact.plots.style import BODIES
-from pierimpact.sensitivity import sensitivity
 from pierimpact.teaching import theory
 from pierimpact.teaching.animation import Animation
 from pierimpact.teaching.scenario import Scenario

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from pierimpact import InputError
-from pierimpact.reduction import exact_amplification
+from pierimpact.design.reduction import exact_amplification
 
 GENERATED = settings(deadline=None, derandomize=True, max_examples=30)
 

@@ -16,13 +16,13 @@ import pypdf
 import pytest
 import yaml
 
-from pierimpact import report as report_module
-from pierimpact.calculation import calculate
-from pierimpact.casefile import read_case
 from pierimpact.checks import InputError
-from pierimpact.exporters import SheetPDFExporter, compile_typst, notebook_of
-from pierimpact.report import ReportError, report_notebook, write_report
-from pierimpact.sheet.blocks import TitleBlock
+from pierimpact.files.case import read_case
+from pierimpact.report import write as report_module
+from pierimpact.report.calculation import calculate
+from pierimpact.report.document.blocks import TitleBlock
+from pierimpact.report.exporters import SheetPDFExporter, compile_typst, notebook_of
+from pierimpact.report.write import ReportError, report_notebook, write_report
 from pierimpact.units import printed
 
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
@@ -471,7 +471,7 @@ def test_a_failing_conversion_leaves_no_half_report(si, tmp_path, monkeypatch):
     templates = tmp_path / "templates"
     shutil.copytree(Path(__file__).parent.parent / "templates", templates)
     (templates / "pierimpact-pdf" / "index.typ.j2").write_text("#nonsense")
-    monkeypatch.setattr("pierimpact.exporters.templates_folder", lambda: templates)
+    monkeypatch.setattr("pierimpact.report.exporters.shipped", lambda _: templates)
     with pytest.raises(ReportError, match="unknown variable: nonsense"):
         write_report(si[0], tmp_path / "out")
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["tti-column.failed.ipynb"]

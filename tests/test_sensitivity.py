@@ -11,7 +11,7 @@ from pierimpact import (
     load_truck,
     simulate,
 )
-from pierimpact.sensitivity import MASS_CHANGE, SPEED_CHANGE, sensitivity
+from pierimpact.design.sensitivity import MASS_CHANGE, SPEED_CHANGE, sensitivity
 
 TRUCK = load_truck("single-unit-8t")
 COLUMN = PierColumn(

@@ -14,8 +14,8 @@ from pierimpact import (
     peak_reactions,
 )
 from pierimpact.design.formulas import amplification
-from pierimpact.reduction import exact_amplification
-from pierimpact.spectra import FREQUENCIES
+from pierimpact.design.reduction import exact_amplification
+from pierimpact.design.spectra import FREQUENCIES
 
 TRUCK = load_truck("single-unit-8t")
 SPEED, MASS, ZETA = 22.2, 12e3, 0.04

@@ -5,13 +5,13 @@ import json
 import numpy as np
 import pytest
 
-from pierimpact import peak_reactions, study
-from pierimpact.cases import collisions
-from pierimpact.catalogue import load_truck
-from pierimpact.design import domain, formulas
+from pierimpact import peak_reactions
+from pierimpact.collision.groups import take
+from pierimpact.collision.parameters import collisions
+from pierimpact.design import domain, formulas, study
 from pierimpact.design.procedure import LEVELS
-from pierimpact.motion import take
-from pierimpact.reduction import exact_amplification
+from pierimpact.design.reduction import exact_amplification
+from pierimpact.files.trucks import load_truck
 
 
 @pytest.fixture(scope="module")

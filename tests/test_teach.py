@@ -2,8 +2,9 @@ import subprocess
 
 import pytest
 
-from pierimpact import cli, teach
+from pierimpact import cli
 from pierimpact.checks import InputError
+from pierimpact.teaching import launch as teach
 
 
 @pytest.fixture

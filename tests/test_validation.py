@@ -9,9 +9,10 @@ import numpy as np
 import papermill
 import pytest
 
-from pierimpact import cargo_spectrum, engine_spectrum, load_truck, study
+from pierimpact import cargo_spectrum, engine_spectrum, load_truck
+from pierimpact.design import study
 from pierimpact.plots import validation as spectrum_figures
-from pierimpact.validation import TRACTOR_TRAILER, Validation, routes, unified_spectrum
+from pierimpact.report.validation import TRACTOR_TRAILER, Validation, routes, unified_spectrum
 
 NOTEBOOK = Path(__file__).parents[1] / "notebooks" / "validation.ipynb"
 TRUCK = load_truck("single-unit-8t")

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from pierimpact import simulate, widgets
-from pierimpact.casefile import case_from, case_values
-from pierimpact.catalogue import read_truck_file
+from pierimpact.files.case import case_from, case_values
+from pierimpact.files.trucks import read_truck_file
 from pierimpact.teaching.explorer import PAUSE
 from pierimpact.teaching.live import LiveWords
 from pierimpact.teaching.readouts import outcome

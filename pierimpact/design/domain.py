@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.motion import Collision, Spring
+from pierimpact.collision.regimes import Collision, Spring
 
 Array = NDArray[np.float64]
 

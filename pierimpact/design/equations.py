@@ -8,9 +8,9 @@ printed before it and it is the calculation. A product of them is written with `
 import re
 from typing import NamedTuple
 
+from pierimpact.collision.regimes import Collision
 from pierimpact.design import cargo_equations, engine_equations
 from pierimpact.design.terms import Equation
-from pierimpact.motion import Collision
 
 
 class DesignStep(NamedTuple):

@@ -11,7 +11,7 @@ import numpy as np
 
 Real: TypeAlias = Any  # a float, or an array
 
-# The coefficients of the closed spectrum, fitted by `pierimpact.study`, and of the two rules for
+# The coefficients of the closed spectrum, fitted by `study`, and of the two rules for
 # the cargo, chosen on its cases.
 HUMP = 1.45
 HUMP_END = 3.1

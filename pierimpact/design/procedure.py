@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from pierimpact.collision.regimes import Collision, Spring
 from pierimpact.design.formulas import (
     RINGING_BETA,
     RINGING_SHARE,
@@ -26,7 +27,6 @@ from pierimpact.design.formulas import (
     joined,
     swing,
 )
-from pierimpact.motion import Collision, Spring
 
 Real: TypeAlias = Any  # a float, or an array
 Values: TypeAlias = dict[str, Real]

@@ -11,14 +11,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.cases import collision, collisions
 from pierimpact.checks import one_of, positive
+from pierimpact.collision.parameters import collision, collisions
+from pierimpact.collision.regimes import Collision
 from pierimpact.design import domain
 from pierimpact.design.equations import DesignStep, given, steps
 from pierimpact.design.procedure import LEVELS, design_values
-from pierimpact.motion import Collision
-from pierimpact.pier import EquivalentPier
-from pierimpact.truck import Truck
+from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.vehicle.truck import Truck
 
 #: A cargo peak below this share of the engine's counts as much smaller. The source paper gives
 #: no figure; this one is this project's.

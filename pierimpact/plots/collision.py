@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from pierimpact.history import CollisionHistory
+from pierimpact.collision.history import CollisionHistory
 from pierimpact.plots.style import (
     BLUE,
     BODIES,

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from pierimpact.history import CollisionHistory
-from pierimpact.member_forces import MemberForces
+from pierimpact.collision.history import CollisionHistory
+from pierimpact.design.sensitivity import Sensitivity, Variation
+from pierimpact.pier.member_forces import MemberForces
 from pierimpact.plots.collision import mark_peaks
 from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, sheet_figure, to_svg
-from pierimpact.sensitivity import Sensitivity, Variation
 from pierimpact.units import printed, unit_of, unit_size
 
 MODEL, DESIGN = "full model", "design procedure"

@@ -8,11 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyBboxPatch, Polygon, Rectangle
 
-from pierimpact.column import StruckColumn
+from pierimpact.pier.column import StruckColumn
+from pierimpact.pier.sections import CircularSection
 from pierimpact.plots.style import BLUE, INK, MUTED, PALE, PIXEL, VERMILION
-from pierimpact.sections import CircularSection
-from pierimpact.truck import Truck
 from pierimpact.units import printed
+from pierimpact.vehicle.truck import Truck
 
 # All in metres, to scale but for the pier's movement: x from the pier's face in the direction of
 # travel, z above the road. The model itself has all at one height.

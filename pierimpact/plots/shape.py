@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from pierimpact.column import StruckColumn
+from pierimpact.pier.column import StruckColumn
 from pierimpact.plots.style import GREEN, MUTED, PIXEL, VERMILION, key, mark_here, panel, round_up
 
 Array = NDArray[np.float64]

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.design.formulas import amplification
+from pierimpact.design.reduction import exact_amplification
+from pierimpact.design.spectra import Spectrum
+from pierimpact.design.study import Reactions
 from pierimpact.plots.figures import DESIGN, MODEL
 from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, sheet_figure, to_svg
-from pierimpact.reduction import exact_amplification
-from pierimpact.spectra import Spectrum
-from pierimpact.study import Reactions
 from pierimpact.units import unit_of, unit_size
 
 Array = NDArray[np.float64]

@@ -6,10 +6,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.crush import CrushSpring
-from pierimpact.history import between
+from pierimpact.collision.history import between
 from pierimpact.plots.schematic import SWING, Frame, Scene
 from pierimpact.teaching.scenario import Strike
+from pierimpact.vehicle.crush import CrushSpring
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import ipywidgets as ipw
 
-from pierimpact.history import CollisionHistory
+from pierimpact.collision.history import CollisionHistory
 from pierimpact.plots import collision, schematic, spectrum
 from pierimpact.plots.style import BODIES
 from pierimpact.teaching import readouts

@@ -8,17 +8,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.cases import collisions
-from pierimpact.catalogue import load_truck
 from pierimpact.checks import InputError
-from pierimpact.collision import peak_reactions, simulate
-from pierimpact.column import PierColumn, StruckColumn
-from pierimpact.crush import CrushSpring
+from pierimpact.collision.history import CollisionHistory
+from pierimpact.collision.parameters import collisions
+from pierimpact.collision.simulate import peak_reactions, simulate
 from pierimpact.design.procedure import design_values
-from pierimpact.history import CollisionHistory
-from pierimpact.pier import EquivalentPier
-from pierimpact.sections import CircularSection
-from pierimpact.truck import Truck
+from pierimpact.files.trucks import load_truck
+from pierimpact.pier.column import PierColumn, StruckColumn
+from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.pier.sections import CircularSection
+from pierimpact.vehicle.crush import CrushSpring
+from pierimpact.vehicle.truck import Truck
 
 Array = NDArray[np.float64]
 

@@ -7,19 +7,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.cases import collision
-from pierimpact.codes import code_forces
-from pierimpact.collision import peak_reactions
-from pierimpact.column import PierColumn
-from pierimpact.crush import CrushSpring
+from pierimpact.collision.parameters import collision
+from pierimpact.collision.simulate import peak_reactions
+from pierimpact.design.codes import code_forces
 from pierimpact.design.formulas import amplification
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reaction import DesignReaction, design_reaction
+from pierimpact.design.reduction import exact_amplification
+from pierimpact.pier.column import PierColumn
 from pierimpact.plots.amplification import Amplification
 from pierimpact.plots.comparison import Bar
 from pierimpact.plots.style import BODIES, GREEN, GREY
-from pierimpact.reduction import exact_amplification
 from pierimpact.teaching.scenario import Strike
+from pierimpact.vehicle.crush import CrushSpring
 
 Array = NDArray[np.float64]
 

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from pierimpact.history import CollisionHistory
+from pierimpact.collision.history import CollisionHistory
 from pierimpact.teaching.scenario import REFERENCE, Scenario
 
 KMH = 1.0 / 3.6

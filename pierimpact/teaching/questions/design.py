@@ -1,6 +1,6 @@
 """Exercises of the lesson on design by spectrum."""
 
-from pierimpact.codes import aashto_lrfd, en_1991_1_7_hard_impact
+from pierimpact.design.codes import aashto_lrfd, en_1991_1_7_hard_impact
 from pierimpact.design.reaction import design_reaction
 from pierimpact.teaching.checker import Question, Trap
 from pierimpact.teaching.questions.common import KMH, SLOW, engine_peak

@@ -1,6 +1,6 @@
 """Exercises of the lesson on where the model ends."""
 
-from pierimpact.collision import peak_reactions
+from pierimpact.collision.simulate import peak_reactions
 from pierimpact.teaching.checker import Question, Trap
 from pierimpact.teaching.questions.common import BODY, engine_peak
 from pierimpact.teaching.scenario import REFERENCE, Scenario

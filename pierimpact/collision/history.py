@@ -1,0 +1,377 @@
+"""What a collision looks like in time: peaks, histories and balances."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pierimpact.collision.coasting import coasted, ringing
+from pierimpact.collision.regimes import Collision, Law, Position, State
+from pierimpact.collision.series import ARRAYS, FLOATS, TERMS
+from pierimpact.collision.stepping import expand, longest_step, motions
+from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.vehicle.truck import Truck
+
+RecordedStep: TypeAlias = tuple[State, Law, float]  # start, equations of motion, length [s]
+Array: TypeAlias = NDArray[np.float64]
+
+ENGINE, BODY, PIER = range(3)  # as in a series
+
+# No mode turns by more than three radians in a piece: a chord between two of these samples misses
+# its crest by less than 0.2 % of the amplitude.
+FRACTIONS = np.linspace(0.0, 1.0, 25)
+
+
+def between(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
+    """Return a motion between its samples, by the cubic that has their values and rates.
+
+    Parameters
+    ----------
+    time, value, rate : ndarray, shape (n,)
+        Samples: times, in ascending order [s], values and their derivatives.
+    at : array_like
+        Times within those of the samples [s].
+    """
+    at = np.asarray(at, dtype=float)
+    after = np.clip(np.searchsorted(time, at), 1, len(time) - 1)
+    before = after - 1
+    length = time[after] - time[before]
+    s = (at - time[before]) / length
+    left = value[before] + s * (3.0 * s - 2.0 * s**2) * (value[after] - value[before])
+    turn = (1.0 - s) * rate[before] - s * rate[after]
+    return np.asarray(left + length * s * (1.0 - s) * turn)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Peak:
+    """A peak of the reaction.
+
+    Parameters
+    ----------
+    reaction : float
+        Its value [N].
+    time : float
+        When it occurs after first touch [s].
+    """
+
+    reaction: float
+    time: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnergyShares:
+    """Where the truck's energy is, each an array of shape (n,) at the history's times [J].
+
+    Parameters
+    ----------
+    kinetic : ndarray
+        Of engine, body and pier.
+    pier_elastic : ndarray
+        Stored in the pier's spring.
+    truck_elastic : ndarray
+        Stored in the crush springs, given back on unloading.
+    crush : ndarray
+        Dissipated by plastic crush.
+    friction : ndarray
+        Dissipated by the friction on the body.
+    damping : ndarray
+        Dissipated by the pier's damper.
+    """
+
+    kinetic: Array
+    pier_elastic: Array
+    truck_elastic: Array
+    crush: Array
+    friction: Array
+    damping: Array
+
+    @property
+    def total(self) -> Array:
+        """Sum of all shares, which stays at ½ (m1 + m2) V² [J]."""
+        return (
+            self.kinetic
+            + self.pier_elastic
+            + self.truck_elastic
+            + self.crush
+            + self.friction
+            + self.damping
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class CollisionHistory:
+    """The motion of one collision, evaluated from its exact pieces.
+
+    The peaks are located on the pieces themselves; the arrays are samples, dense enough to draw.
+
+    Parameters
+    ----------
+    truck, pier, speed
+        What was simulated.
+    case : Collision
+        The same as plain numbers.
+    steps : list of (State, Law, float)
+        Start, equations of motion, and length [s] of each step.
+    end : State
+        The last state.
+    """
+
+    truck: Truck
+    pier: EquivalentPier
+    speed: float
+    case: Collision = field(repr=False)
+    steps: list[RecordedStep] = field(repr=False)
+    end: State = field(repr=False)
+
+    @property
+    def engine_peak(self) -> Peak:
+        """Largest reaction before cargo contact; of all time where there is none."""
+        return Peak(
+            reaction=self.pier.stiffness * self.end.engine_peak, time=self.end.engine_peak_time
+        )
+
+    @property
+    def cargo_peak(self) -> Peak | None:
+        """Largest reaction from cargo contact on; None without cargo contact."""
+        if self.cargo_contact_time is None:
+            return None
+        return Peak(
+            reaction=self.pier.stiffness * self.end.cargo_peak, time=self.end.cargo_peak_time
+        )
+
+    @property
+    def governing_peak(self) -> Peak:
+        """The larger of the two peaks."""
+        cargo = self.cargo_peak
+        if cargo is not None and cargo.reaction > self.engine_peak.reaction:
+            return cargo
+        return self.engine_peak
+
+    @property
+    def engine_contact_time(self) -> float | None:
+        """When the engine meets the pier: δ1 first reaches d1 [s]; None if it never does."""
+        return _known(self.end.engine_contact)
+
+    @property
+    def cargo_contact_time(self) -> float | None:
+        """When the cargo meets the pier: δ2 first reaches d2 [s]; None if it never does."""
+        return _known(self.end.cargo_contact)
+
+    @cached_property
+    def time(self) -> Array:
+        """Time after first touch, shape (n,) [s]."""
+        starts = self._column(lambda state, law: state.time)
+        return self._flat(starts + self._lengths * FRACTIONS)
+
+    @cached_property
+    def pier_displacement(self) -> Array:
+        """Displacement x_p of the pier at the nominal impact height, shape (n,) [m]."""
+        return self._flat(self._series(PIER))
+
+    @cached_property
+    def pier_velocity(self) -> Array:
+        """Velocity x_p' of the pier at the nominal impact height, shape (n,) [m/s]."""
+        return self._flat(self._series(PIER, order=1))
+
+    @cached_property
+    def engine_crush(self) -> Array:
+        """Crush δ1 = x1 − x_p of spring 1, shape (n,) [m]."""
+        return self._flat(self._series(ENGINE))
+
+    @cached_property
+    def body_crush(self) -> Array:
+        """Crush δ2 = x2 − x_p of spring 2, shape (n,) [m]."""
+        return self._flat(self._series(BODY))
+
+    @cached_property
+    def engine_velocity(self) -> Array:
+        """Velocity x1' of the engine, shape (n,) [m/s]."""
+        return self._flat(self._series(ENGINE, order=1)) + self.pier_velocity
+
+    @cached_property
+    def body_velocity(self) -> Array:
+        """Velocity x2' of the body, shape (n,) [m/s]."""
+        return self._flat(self._series(BODY, order=1)) + self.pier_velocity
+
+    @cached_property
+    def reaction(self) -> Array:
+        """Reaction R = k_p x_p, shape (n,) [N]."""
+        return self.pier.stiffness * self.pier_displacement
+
+    @cached_property
+    def engine_force(self) -> Array:
+        """Force F1 of spring 1, shape (n,) [N]."""
+        intercept = self._column(lambda state, law: state.engine.intercept)
+        slope = self._column(lambda state, law: state.engine.slope)
+        return self._flat(intercept + slope * self._series(ENGINE))
+
+    @cached_property
+    def body_force(self) -> Array:
+        """Force F2 of spring 2, shape (n,) [N]."""
+        intercept = self._column(lambda state, law: state.body.intercept)
+        slope = self._column(lambda state, law: state.body.slope)
+        return self._flat(intercept + slope * self._series(BODY))
+
+    @cached_property
+    def friction_force(self) -> Array:
+        """Friction F_s against the body's motion, shape (n,) [N]."""
+        # Where the body sticks the friction is what its motion asks for.
+        held_mass = self.case.body.mass if self.case.on_pier else 0.0
+        held = -self.body_force - held_mass * self._flat(self._series(PIER, order=2))
+        stuck = self._flat(self._column(lambda state, law: state.stuck) + 0.0 * FRACTIONS)
+        return self._flat(self._sliding_friction + 0.0 * FRACTIONS) + stuck * held
+
+    @cached_property
+    def contact_force(self) -> Array:
+        """Force of the truck on the pier, F1 + F2 (+ F_s if friction acts on the pier) [N]."""
+        force = self.engine_force + self.body_force
+        return force + self.friction_force if self.case.on_pier else force
+
+    @cached_property
+    def impulse(self) -> Array:
+        """Impulse of the truck on the pier since first touch, ∫ F dt, shape (n,) [N s].
+
+        From the pier's motion: m_p x_p' + c_p x_p + k_p ∫ x_p dt.
+        """
+        pier = self.pier
+        return (
+            pier.mass * self.pier_velocity
+            + pier.damping * self.pier_displacement
+            + pier.stiffness * self._accumulate(self._series(PIER, order=-1))
+        )
+
+    @cached_property
+    def energy(self) -> EnergyShares:
+        """Where the truck's energy is at each time."""
+        case, truck = self.case, self.truck
+        return EnergyShares(
+            kinetic=0.5
+            * (
+                truck.engine_mass * self.engine_velocity**2
+                + truck.body_mass * self.body_velocity**2
+                + self.pier.mass * self.pier_velocity**2
+            ),
+            pier_elastic=0.5 * self.pier.stiffness * self.pier_displacement**2,
+            truck_elastic=0.5
+            * (
+                self.engine_force**2 / case.engine.unloading_stiffness
+                + self.body_force**2 / case.body.unloading_stiffness
+            ),
+            crush=truck.engine_spring.dissipated(self._largest_crush(ENGINE))
+            + truck.body_spring.dissipated(self._largest_crush(BODY)),
+            friction=self._friction_work(),
+            damping=self._damping_work(),
+        )
+
+    @cached_property
+    def energy_error(self) -> float:
+        """Largest departure of the energy's sum from ½ (m1 + m2) V², relative [-]."""
+        given = 0.5 * self.truck.mass * self.speed**2
+        return float(np.max(np.abs(self.energy.total - given)) / given)
+
+    @cached_property
+    def momentum_error(self) -> float:
+        """Largest departure from the momentum balance, relative to (m1 + m2) V [-].
+
+        Momentum of truck and pier + ∫ (k_p x_p + c_p x_p' + road friction) dt = (m1 + m2) V.
+        """
+        truck = self.truck
+        given = truck.mass * self.speed
+        momentum = truck.engine_mass * self.engine_velocity + truck.body_mass * self.body_velocity
+        impulse = self.impulse
+        if not self.case.on_pier:
+            # A body that sticks to the road is held by minus the force of its spring.
+            stuck = self._column(lambda state, law: state.stuck)
+            intercept = self._column(lambda state, law: state.body.intercept)
+            slope = self._column(lambda state, law: state.body.slope)
+            impulse = impulse + self._accumulate(
+                (self._sliding_friction - stuck * intercept) * self._lengths * FRACTIONS
+                - stuck * slope * self._series(BODY, order=-1)
+            )
+        return float(np.max(np.abs(momentum + impulse - given)) / given)
+
+    # The arrays below have one row a piece and one column a fraction of it.
+
+    @cached_property
+    def _pieces(self) -> list[RecordedStep]:
+        """The steps, cut where the pier rings for longer than a series can follow."""
+        pieces: list[RecordedStep] = []
+        for state, law, length in self.steps:
+            count = max(1, math.ceil(length / longest_step(law, FLOATS) - 1e-9))
+            pieces.append((state, law, length / count))
+            for number in range(1, count):
+                t = number * length / count
+                at = coasted(law, state.at, ringing(law, state.at, FLOATS), t, FLOATS)
+                later = state._replace(time=state.time + t, at=at)
+                pieces.append((later, law, length / count))
+        return pieces
+
+    @cached_property
+    def _terms(self) -> tuple[Array, ...]:
+        """Terms of the motions' series, each of shape (pieces, terms)."""
+        starts = Position(*np.array([state.at for state, _, _ in self._pieces]).T)
+        laws = Law(*np.array([law for _, law, _ in self._pieces], dtype=float).T)
+        lengths = self._lengths[:, 0]
+        return tuple(
+            terms.T for terms in expand(laws, motions(laws, starts), lengths, TERMS, ARRAYS)
+        )
+
+    def _column(self, value: Callable[[State, Law], float]) -> Array:
+        """Return one value a piece, shape (pieces, 1)."""
+        return np.array([[float(value(state, law))] for state, law, _ in self._pieces])
+
+    @cached_property
+    def _lengths(self) -> Array:
+        return np.array([[length] for _, _, length in self._pieces])
+
+    @cached_property
+    def _sliding_friction(self) -> Array:
+        return self._column(lambda state, law: law.friction)
+
+    def _series(self, which: int, order: int = 0, fractions: Array = FRACTIONS) -> Array:
+        """Return a motion's derivative of an order, or for −1 its integral from a piece's start.
+
+        Shape (pieces, fractions).
+        """
+        terms = self._terms[which][:, max(order, 0) :]
+        powers = np.arange(terms.shape[1])[:, None] - min(order, 0)
+        factorials = np.array([[math.factorial(n)] for n in powers[:, 0]], dtype=float)
+        rows: Array = terms @ (fractions**powers / factorials) / self._lengths**order
+        return rows
+
+    def _flat(self, rows: Array) -> Array:
+        """Join the pieces' rows, each of which begins where the one before it ends."""
+        return np.append(rows[:, :-1].ravel(), rows[-1, -1])
+
+    def _accumulate(self, rows: Array) -> Array:
+        """Join rows that each count from the start of their piece."""
+        before = np.concatenate(([0.0], np.cumsum(rows[:-1, -1])))
+        return self._flat(before[:, None] + rows)
+
+    def _largest_crush(self, which: int) -> Array:
+        springs = (self.truck.engine_spring, self.truck.body_spring)
+        earlier = self._column(lambda state, law: (state.engine, state.body)[which].largest)
+        largest = np.maximum(self._series(which), earlier)
+        # Up to the elastic limit nothing is lost, and nothing marks the crush as largest yet.
+        return self._flat(np.maximum(largest, springs[which].elastic_limit))
+
+    def _friction_work(self) -> Array:
+        path = self._series(BODY) + (0.0 if self.case.on_pier else self._series(PIER))
+        return self._accumulate(self._sliding_friction * (path - path[:, :1]))
+
+    def _damping_work(self) -> Array:
+        nodes, weights = np.polynomial.legendre.leggauss(6)
+        width = FRACTIONS[1]
+        places = (FRACTIONS[:-1, None] + 0.5 * width * (1.0 + nodes)).ravel()
+        squares = self._series(PIER, order=1, fractions=places) ** 2
+        pieces = squares.reshape(len(squares), -1, len(nodes)) @ (0.5 * width * weights)
+        work = np.cumsum(pieces, axis=1) * self._lengths
+        return self.pier.damping * self._accumulate(np.pad(work, ((0, 0), (1, 0))))
+
+
+def _known(time: float) -> float | None:
+    return None if math.isnan(time) else time

@@ -1,0 +1,137 @@
+"""The collision by the coupled mass-spring-damper (CMSD) model."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pierimpact.checks import not_negative, positive
+from pierimpact.collision.history import CollisionHistory, RecordedStep
+from pierimpact.collision.parameters import collision, collisions
+from pierimpact.collision.regimes import Law, State
+from pierimpact.collision.stepping import follow, follow_all
+from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.vehicle.truck import Truck
+
+SHORTEST = 1e-13  # step worth a place in the history; shorter ones are round-off [s]
+
+
+def simulate(
+    truck: Truck, pier: EquivalentPier, speed: float, duration: float = 0.0
+) -> CollisionHistory:
+    """Simulate one collision.
+
+    Parameters
+    ----------
+    truck : Truck
+        The truck.
+    pier : EquivalentPier
+        The pier.
+    speed : float
+        Speed of the truck at first touch [m/s].
+    duration : float, optional
+        Time that the history covers at least [s]. It always goes on until no later instant can
+        raise a peak or bring a first contact.
+
+    Returns
+    -------
+    CollisionHistory
+        Peaks, contact times and time histories.
+
+    Raises
+    ------
+    InputError
+        When the speed is not positive or the duration is negative.
+    """
+    speed, duration = positive("speed", speed), not_negative("duration", duration)
+    case = collision(truck, pier, speed)
+    steps: list[RecordedStep] = []
+
+    def record(state: State, law: Law, length: float) -> None:
+        if length > SHORTEST:
+            steps.append((state, law, length))
+
+    end = follow(case, duration, record)
+    return CollisionHistory(truck=truck, pier=pier, speed=speed, case=case, steps=steps, end=end)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PeakReactions:
+    """The peaks of many collisions, each an array of the shape the inputs broadcast to.
+
+    Parameters
+    ----------
+    engine, cargo : ndarray
+        Peak reactions before and from cargo contact on; `cargo` is nan without it [N].
+    engine_time, cargo_time : ndarray
+        When they occur [s].
+    engine_contact_time, cargo_contact_time : ndarray
+        When engine and cargo first meet the pier; nan where they do not [s].
+    """
+
+    engine: NDArray[np.float64]
+    cargo: NDArray[np.float64]
+    engine_time: NDArray[np.float64]
+    cargo_time: NDArray[np.float64]
+    engine_contact_time: NDArray[np.float64]
+    cargo_contact_time: NDArray[np.float64]
+
+    @property
+    def governing(self) -> NDArray[np.float64]:
+        """The larger of the two peaks [N]."""
+        return np.fmax(self.engine, self.cargo)
+
+
+def peak_reactions(
+    truck: Truck | Sequence[Truck],
+    pier_mass: ArrayLike,
+    pier_stiffness: ArrayLike,
+    damping_ratio: ArrayLike,
+    speed: ArrayLike,
+    progress: Callable[[int], object] = lambda count: None,
+) -> PeakReactions:
+    """Return the peak reactions of many collisions.
+
+    The collisions advance side by side by the same equations as in `simulate`; memory does not
+    grow beyond inputs and results.
+
+    Parameters
+    ----------
+    truck : Truck or sequence of Truck
+        One truck for all, or one for each; a sequence of n broadcasts as shape (n,).
+    pier_mass, pier_stiffness : array_like
+        Equivalent mass [kg] and stiffness [N/m] of the piers.
+    damping_ratio : array_like
+        Fraction of critical damping, from 0 to below 1 [-].
+    speed : array_like
+        Speeds at first touch [m/s].
+    progress : callable, optional
+        Called now and then with the number of collisions done since the last call; the `update`
+        of a progress bar of `tqdm`, say.
+
+    Returns
+    -------
+    PeakReactions
+        Arrays of the shape to which the inputs broadcast.
+
+    Raises
+    ------
+    InputError
+        When a value is out of range or the shapes do not broadcast.
+    """
+    shape, parts = collisions(truck, pier_mass, pier_stiffness, damping_ratio, speed)
+    cases = (case for _, case in parts)
+    outcomes = follow_all(cases, math.prod(shape), progress=progress)
+    engine_contact, cargo_contact, engine, engine_time, cargo, cargo_time = (
+        outcome.reshape(shape) for outcome in outcomes
+    )
+    return PeakReactions(
+        engine=np.multiply(pier_stiffness, engine),
+        cargo=np.multiply(pier_stiffness, cargo),
+        engine_time=engine_time,
+        cargo_time=cargo_time,
+        engine_contact_time=engine_contact,
+        cargo_contact_time=cargo_contact,
+    )

@@ -1,0 +1,160 @@
+"""How the reaction changes with speed, truck mass, impact height and pier frequency."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pierimpact.collision.simulate import peak_reactions
+from pierimpact.design.reaction import design_reactions
+from pierimpact.pier.column import PierColumn
+from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.vehicle.truck import Truck
+
+Array: TypeAlias = NDArray[np.float64]
+Strike: TypeAlias = tuple[Truck, EquivalentPier, float]  # and the speed [m/s]
+
+#: The changes that a reviewer asks for: of speed [m/s], and of the share of the truck's mass.
+SPEED_CHANGE, MASS_CHANGE = 10.0 / 3.6, 0.2
+
+# Curves run over these shares of the case's value, and over these frequencies [Hz].
+_SHARES = np.linspace(0.5, 1.5, 31)
+_FREQUENCIES = np.geomspace(2.0, 200.0, 130)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variation:
+    """Reactions while one quantity changes and all else stays.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        Values of the quantity [SI].
+    engine, cargo : ndarray, shape (n,)
+        Peaks of the full model; `cargo` is nan without cargo contact [N].
+    design_engine, design_cargo : ndarray, shape (n,)
+        The same by the design procedure [N].
+    """
+
+    values: Array
+    engine: Array
+    cargo: Array
+    design_engine: Array
+    design_cargo: Array
+
+    @property
+    def model(self) -> Array:
+        """Governing peak of the full model, shape (n,) [N]."""
+        return np.fmax(self.engine, self.cargo)
+
+    @property
+    def design(self) -> Array:
+        """Governing reaction of the design procedure, shape (n,) [N]."""
+        return np.fmax(self.design_engine, self.design_cargo)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sensitivity:
+    """The variations about one case.
+
+    Parameters
+    ----------
+    speed, mass, impact_height, frequency : Variation
+        Over speed [m/s], total mass of the truck [kg], nominal impact height [m] and, at the
+        pier's own mass and damping, its frequency [Hz].
+    slower, faster, lighter, heavier : Variation or None
+        The speed changed by SPEED_CHANGE, the mass by MASS_CHANGE: one value each; None where
+        there is no such speed or mass.
+    """
+
+    speed: Variation
+    mass: Variation
+    impact_height: Variation
+    frequency: Variation
+    slower: Variation | None
+    faster: Variation | None
+    lighter: Variation | None
+    heavier: Variation | None
+
+
+def sensitivity(
+    truck: Truck, column: PierColumn, pier: EquivalentPier, impact_height: float, speed: float
+) -> Sensitivity:
+    """Return the variations about a case.
+
+    Parameters
+    ----------
+    truck : Truck
+        The truck.
+    column : PierColumn
+        The column.
+    pier : EquivalentPier
+        The column as struck at the impact height.
+    impact_height : float
+        Nominal impact height [m].
+    speed : float
+        Speed of the truck at first touch [m/s].
+    """
+
+    def at_speed(value: float) -> Strike | None:
+        return (truck, pier, value) if value > 0.0 else None
+
+    def at_mass(value: float) -> Strike | None:
+        return (truck.with_mass(value), pier, speed) if value > truck.engine_mass else None
+
+    def at_height(value: float) -> Strike | None:
+        if value >= column.height:
+            return None
+        return truck, column.equivalent(value, pier.damping_ratio), speed
+
+    def at_frequency(value: float) -> Strike:
+        other = EquivalentPier(
+            mass=pier.mass,
+            stiffness=pier.mass * (2.0 * np.pi * value) ** 2,
+            damping_ratio=pier.damping_ratio,
+        )
+        return truck, other, speed
+
+    mass = truck.mass
+    asked: dict[str, tuple[Any, Callable[[float], Strike | None]]] = {
+        "speed": (speed * _SHARES, at_speed),
+        "mass": (mass * _SHARES, at_mass),
+        "impact_height": (impact_height * _SHARES, at_height),
+        "frequency": (np.unique(np.append(_FREQUENCIES, pier.frequency)), at_frequency),
+        "slower": ([speed - SPEED_CHANGE], at_speed),
+        "faster": ([speed + SPEED_CHANGE], at_speed),
+        "lighter": ([mass * (1.0 - MASS_CHANGE)], at_mass),
+        "heavier": ([mass * (1.0 + MASS_CHANGE)], at_mass),
+    }
+    strikes = {
+        name: {float(value): strike for value in values if (strike := at(float(value)))}
+        for name, (values, at) in asked.items()
+    }
+    return Sensitivity(**_reactions(strikes))  # type: ignore[arg-type]
+
+
+def _reactions(strikes: Mapping[str, Mapping[float, Strike]]) -> dict[str, Variation | None]:
+    """Return the variations by name, None for those without a value; all in one go."""
+    together: Sequence[Strike] = [s for part in strikes.values() for s in part.values()]
+    trucks = [truck for truck, _, _ in together]
+    columns = np.array([(p.mass, p.stiffness, p.damping_ratio, v) for _, p, v in together]).T
+    peaks, design = peak_reactions(trucks, *columns), design_reactions(trucks, *columns)
+    found: dict[str, Variation | None] = {}
+    first = 0
+    for name, part in strikes.items():
+        where = slice(first, first + len(part))
+        first += len(part)
+        found[name] = (
+            Variation(
+                values=np.array(list(part)),
+                engine=peaks.engine[where],
+                cargo=peaks.cargo[where],
+                design_engine=design.engine[where],
+                design_cargo=design.cargo[where],
+            )
+            if part
+            else None
+        )
+    return found

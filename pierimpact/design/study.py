@@ -1,0 +1,247 @@
+"""The parametric study behind the design formulas: refits them and says how good they are.
+
+`python -m pierimpact.design.study` draws random collisions of the domain, solves each by
+the full model, refits the closed spectrum, and writes the outcome to `study.json` beside this
+file. The coefficients in `pierimpact.design.formulas` are those of the file, rounded.
+"""
+
+import json
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pierimpact.collision.groups import chunks, take
+from pierimpact.collision.parameters import collision
+from pierimpact.collision.regimes import STEEP, Collision, Law, Spring, State
+from pierimpact.collision.stepping import OUTCOMES, follow, follow_all
+from pierimpact.design import domain, formulas
+from pierimpact.design.procedure import LEVELS, design_values
+from pierimpact.design.reduction import exact_amplification
+from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.vehicle.truck import Truck
+
+Array = NDArray[np.float64]
+Summary = dict[str, float]
+
+SIZE, SEED = 6000, 20170101
+#: So many of the cases are also followed one by one, for the speeds at contact.
+FOLLOWED = 1000
+#: So many cases are in the file one by one, so that anyone sees whether it is up to date.
+SHOWN = 20
+OUTCOME_FILE = Path(__file__).with_name("study.json")
+#: Arguments of the closed spectrum that are fitted, and the values in use.
+COEFFICIENTS = {
+    "height": formulas.HUMP,
+    "end": formulas.HUMP_END,
+    "decline": formulas.HUMP_DECLINE,
+    "mass_effect": formulas.MASS_EFFECT,
+    "damping_effect": formulas.DAMPING_EFFECT,
+}
+#: Limits of the frequency bands that are reported apart [Hz].
+BANDS = (5.0, 7.0, 10.0, 15.0, 20.0, 40.0, 80.0, 150.0)
+#: An amplification that is too low weighs this much more in the fit than one too high.
+PRUDENCE = 2.0
+
+
+class Reactions(NamedTuple):
+    """Engine, cargo and governing reactions, each of shape (n,); cargo is nan without it [N]."""
+
+    engine: Array
+    cargo: Array
+    governing: Array
+
+
+def full_model(case: Collision) -> Reactions:
+    """Return the peak reactions by the full model."""
+    peaks = dict(zip(OUTCOMES, follow_all(chunks(case), len(case.speed)), strict=True))
+    engine = case.pier_stiffness * peaks["engine_peak"]
+    cargo = case.pier_stiffness * peaks["cargo_peak"]
+    return Reactions(engine, cargo, np.fmax(engine, cargo))
+
+
+def predictions(case: Collision, level: str) -> Reactions:
+    """Return the same reactions by the design procedure."""
+    values = design_values(case, level)
+    engine, cargo = values["engine"], values["cargo"]
+    return Reactions(engine, cargo, np.fmax(engine, cargo))
+
+
+def with_truck(case: Collision, truck: Truck) -> Collision:
+    """Return the collisions with another truck, the same in each."""
+    own = collision(truck, EquivalentPier(mass=1.0, stiffness=1.0), 1.0)
+    same = np.ones_like(case.speed)
+    return case._replace(
+        engine=Spring(*(same * x for x in own.engine)),
+        body=Spring(*(same * x for x in own.body)),
+        friction_force=same * own.friction_force,
+        on_pier=np.full(same.shape, own.on_pier),
+    )
+
+
+def summary(ratios: Array) -> Summary:
+    """Return what is reported of predicted over CMSD reactions; pairs with a nan are left out."""
+    ratios = ratios[np.isfinite(ratios)]
+    if not len(ratios):
+        return {"cases": 0}
+    return {
+        "cases": len(ratios),
+        "mean": float(ratios.mean()),
+        "coefficient of variation": float(ratios.std() / ratios.mean()),
+        "1st percentile": float(np.quantile(ratios, 0.01)),
+        "smallest": float(ratios.min()),
+        "99th percentile": float(np.quantile(ratios, 0.99)),
+        "largest": float(ratios.max()),
+    }
+
+
+def assessment(
+    case: Collision, exact: Reactions, predicted: Reactions
+) -> dict[str, dict[str, Summary]]:
+    """Return summaries of predicted over CMSD by reaction and frequency band."""
+    frequency = domain.values(case)["pier frequency"]
+    found: dict[str, dict[str, Summary]] = {}
+    for which in Reactions._fields:
+        ratios = getattr(predicted, which) / getattr(exact, which)
+        found[which] = {"all": summary(ratios)} | {
+            f"{low:g}–{high:g} Hz": summary(ratios[(frequency >= low) & (frequency < high)])
+            for low, high in pairwise(BANDS)
+        }
+    return found
+
+
+def contact_speeds(case: Collision) -> tuple[Array, Array]:
+    """Return the speeds of engine and cargo as they meet the pier by the full model.
+
+    Over the road, each of shape (n,); nan where the body does not meet the pier [m/s].
+    """
+    speeds = np.full((2, len(case.speed)), np.nan)
+    for i in range(len(case.speed)):
+        found = speeds[:, i]
+
+        def record(state: State, law: Law, h: float, found: Array = found) -> None:
+            at = state.at
+            if np.isnan(found[0]) and state.engine.regime == STEEP:
+                found[0] = at.u1 + at.vp
+            if np.isnan(found[1]) and state.body.regime == STEEP:
+                found[1] = at.u2 + at.vp
+
+        one = take(case, i)
+        follow(
+            Collision(
+                *(
+                    Spring(*map(float, item)) if isinstance(item, Spring) else item.item()
+                    for item in one
+                )
+            ),
+            record=record,
+        )
+    return speeds[0], speeds[1]
+
+
+def speed_errors(case: Collision) -> dict[str, dict[str, Summary]]:
+    """Return how far approach speeds are off by level and body, over the speed of the truck.
+
+    Where the body meets the pier by the full model.
+    """
+    exact = contact_speeds(case)
+    found: dict[str, dict[str, Summary]] = {}
+    for level in LEVELS:
+        values = design_values(case, level)
+        found[level] = {}
+        for body, speed in zip(("engine", "cargo"), exact, strict=True):
+            error = (values[f"{body}_speed"] - speed) / case.speed
+            error = error[np.isfinite(error)]
+            found[level][body] = {
+                "cases": len(error),
+                "mean": float(error.mean()),
+                "standard deviation": float(error.std()),
+                "smallest": float(error.min()),
+                "largest": float(error.max()),
+            }
+    return found
+
+
+def spectrum_arguments(case: Collision) -> tuple[Array, Array, Array, Array]:
+    """Return β, μ, e and ζ of every engine, followed by those of every cargo."""
+    omega = np.sqrt(case.pier_stiffness / case.pier_mass)
+    zeta = domain.values(case)["damping ratio"]
+    pairs = [
+        (
+            omega / np.sqrt(spring.stiffness / spring.mass),
+            spring.mass / case.pier_mass,
+            np.sqrt(spring.stiffness / spring.unloading_stiffness),
+            zeta,
+        )
+        for spring in (case.engine, case.body)
+    ]
+    beta, mu, e, zeta = (np.concatenate(pair) for pair in zip(*pairs, strict=True))
+    return beta, mu, e, zeta
+
+
+def fit(arguments: tuple[Array, Array, Array, Array], exact: Array) -> dict[str, float]:
+    """Return the coefficients of the closed spectrum that fit the exact amplification best."""
+    from scipy.optimize import least_squares
+
+    beta, mu, e, zeta = arguments
+
+    def residual(coefficients: Array) -> Array:
+        named = dict(zip(COEFFICIENTS, coefficients, strict=True))
+        closed = formulas.joined(beta, mu, e, formulas.hump(beta, mu, zeta, **named))
+        error = np.log(closed / exact)
+        return np.asarray(np.where(error < 0.0, PRUDENCE * error, error))
+
+    found = least_squares(residual, list(COEFFICIENTS.values())).x
+    return {name: float(value) for name, value in zip(COEFFICIENTS, found, strict=True)}
+
+
+def study(size: int = SIZE, seed: int = SEED) -> dict[str, Any]:
+    """Run the study and return what goes into the file."""
+    case = domain.sample(size, seed)
+    arguments = spectrum_arguments(case)
+    exact = exact_amplification(*arguments)
+    closed = formulas.amplification(*arguments)
+    reactions = full_model(case)
+    return {
+        "seed": seed,
+        "size": size,
+        "domain": {
+            name: f"{low:g} to {high:g} {unit}"
+            for name, (low, high, unit, _) in domain.DOMAIN.items()
+        },
+        "fitted": fit(arguments, exact),
+        "used": COEFFICIENTS,
+        "closed over exact amplification": {
+            "engine": summary(closed[:size] / exact[:size]),
+            "cargo": summary(closed[size:] / exact[size:]),
+        },
+        "predicted over CMSD": {
+            level: assessment(case, reactions, predictions(case, level)) for level in LEVELS
+        },
+        "governing of the first cases, predicted over CMSD": {
+            level: (predictions(case, level).governing / reactions.governing)[:SHOWN].tolist()
+            for level in LEVELS
+        },
+        "error of the approach speed over the truck's": speed_errors(
+            take(case, slice(0, FOLLOWED))
+        ),
+    }
+
+
+def main(report: Callable[[str], None] = print) -> None:
+    """Run the study and write its file."""
+    outcome = study()
+    OUTCOME_FILE.write_text(
+        json.dumps(outcome, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+    )
+    for level, reactions in outcome["predicted over CMSD"].items():
+        for which, bands in reactions.items():
+            row = ", ".join(f"{name} {value:.4g}" for name, value in bands["all"].items())
+            report(f"{level} {which}: {row}")
+
+
+if __name__ == "__main__":
+    main()

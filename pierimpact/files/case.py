@@ -1,0 +1,220 @@
+"""Case files: flat YAML, parsed with units and checked before anything runs."""
+
+import datetime
+import hashlib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from pierimpact.checks import InputError
+from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
+from pierimpact.files.inputs import Inputs, read_inputs
+from pierimpact.files.trucks import TruckFile, read_truck_file
+from pierimpact.pier.column import PierColumn
+from pierimpact.pier.sections import CircularSection, RectangularSection, Section
+from pierimpact.units import brief
+from pierimpact.vehicle.truck import Truck
+
+#: Parameters of the report notebook that are no keys of a case file.
+NOTEBOOK_PARAMETERS = ("case_file", "case_sha256")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """A case that has passed every check, as objects of the core.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        Values by key, in SI units.
+    given : mapping of str to object
+        What was typed, by key, for the keys that were given.
+    column : PierColumn
+        The pier.
+    truck : Truck
+        The truck, with the mass of the case.
+    truck_file : TruckFile
+        The file of the truck, with the source and status of each parameter.
+    """
+
+    inputs: Inputs
+    given: Mapping[str, object]
+    column: PierColumn
+    truck: Truck
+    truck_file: TruckFile
+
+    @property
+    def impact_heights(self) -> tuple[float, ...]:
+        """Nominal impact heights the case may come to use [m]."""
+        height = self.inputs.impact_height
+        return (LOW_IMPACT_HEIGHT, HIGH_IMPACT_HEIGHT) if height == "auto" else (height,)
+
+
+def read_case(path: str | Path) -> Case:
+    """Return the case of a case file.
+
+    Raises
+    ------
+    InputError
+        When the file cannot be read or breaks a rule; the message is one line.
+    """
+    path = Path(path)
+    try:
+        return case_from(case_values(path), folder=path.parent)
+    except InputError as error:
+        raise InputError(f"{path.name}: {error}") from None
+
+
+_COLON = "mapping values are not allowed here"  # what YAML says of a second colon in a line
+
+
+def case_values(path: Path) -> dict[str, object]:
+    """Return the keys and values of a case file as YAML has them, unchecked."""
+    try:
+        values = yaml.load(path.read_bytes().decode("utf-8-sig"), _Loader)
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError("is not UTF-8 text") from None
+    except yaml.MarkedYAMLError as error:
+        line = f"line {error.problem_mark.line + 1}: " if error.problem_mark else ""
+        remedy = ": put text that has a colon in it in quotes" if error.problem == _COLON else ""
+        raise InputError(f"{line}not valid YAML: {error.problem}{remedy}") from None
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        reason = str(error).partition("\n")[0]
+        raise InputError(f"not valid YAML: {reason}") from None
+    if not isinstance(values, dict):
+        found = "nothing" if values is None else brief(values)
+        raise InputError(f"must be keys and values (key: value), got {found}")
+    return values
+
+
+def file_hash(path: Path) -> str:
+    """Return the SHA-256 of a file's bytes, in hexadecimal."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:
+    """Return the case of keys and values as a case file has them; None counts as not given.
+
+    Parameters
+    ----------
+    values : mapping of str to object
+        Values as typed, by key.
+    folder : str or Path, optional
+        Folder that a relative path of a truck file starts from.
+
+    Raises
+    ------
+    InputError
+        When a key is unknown or missing, or a value breaks a rule.
+    """
+    inputs = read_inputs(values)
+    truck_file = read_truck_file(inputs.truck, folder)
+    case = Case(
+        inputs=inputs,
+        given={key: value for key, value in values.items() if value is not None},
+        column=_column(inputs),
+        truck=_with_mass(truck_file.truck, inputs.truck_mass),
+        truck_file=truck_file,
+    )
+    for impact_height in case.impact_heights:
+        case.column.struck_at(impact_height)  # an error here is better than one halfway
+    return case
+
+
+def case_from_notebook(namespace: Mapping[str, object]) -> Case:
+    """Return the case that a notebook's parameters describe.
+
+    Every plain value among the notebook's variables is taken for a key, so that a misspelt one
+    is found even though papermill passes it on.
+
+    Parameters
+    ----------
+    namespace : mapping of str to object
+        The notebook's variables, `globals()`.
+
+    Raises
+    ------
+    InputError
+        When a key is unknown or missing, or a value breaks a rule.
+    """
+    values = {
+        name: value
+        for name, value in namespace.items()
+        if not name.startswith("_")
+        and name not in (*NOTEBOOK_PARAMETERS, "In", "Out")
+        and isinstance(value, str | int | float | list | dict | datetime.date | None)
+    }
+    return case_from(values)
+
+
+def concrete_modulus(strength: float) -> float:
+    """Elastic modulus E = 4700 √f_c' of normal-weight concrete, both in MPa, as in ACI 318.
+
+    From memory, not read in the standard: unverified.
+
+    Parameters
+    ----------
+    strength : float
+        Compressive strength f_c' [Pa].
+
+    Returns
+    -------
+    float
+        Elastic modulus [Pa].
+    """
+    return 4700e6 * math.sqrt(strength / 1e6)
+
+
+def _column(inputs: Inputs) -> PierColumn:
+    if (inputs.elastic_modulus is None) == (inputs.concrete_strength is None):
+        raise InputError("give one of elastic_modulus and concrete_strength")
+    elastic_modulus = inputs.elastic_modulus or concrete_modulus(inputs.concrete_strength or 0.0)
+    return PierColumn(
+        height=inputs.column_height,
+        section=_section(inputs),
+        elastic_modulus=elastic_modulus,
+        poisson_ratio=inputs.poisson_ratio,
+        density=inputs.density,
+        base=inputs.base,
+        top=inputs.top,
+    )
+
+
+def _section(inputs: Inputs) -> Section:
+    sizes = ("column_diameter", "column_width", "column_depth")
+    wanted = sizes[:1] if inputs.column_shape == "circular" else sizes[1:]
+    for key in sizes:
+        if (getattr(inputs, key) is None) == (key in wanted):
+            must = "is missing: it belongs" if key in wanted else "does not belong"
+            raise InputError(f"{key} {must} to column_shape {inputs.column_shape}")
+    if inputs.column_diameter is not None:
+        return CircularSection(diameter=inputs.column_diameter)
+    assert inputs.column_width is not None
+    assert inputs.column_depth is not None
+    return RectangularSection(width=inputs.column_width, depth=inputs.column_depth)
+
+
+def _with_mass(truck: Truck, mass: float | None) -> Truck:
+    if mass is None:
+        return truck
+    try:
+        return truck.with_mass(mass)
+    except InputError as error:  # the truck calls it mass
+        raise InputError(f"truck_{error}") from None
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML's safe loader, for which a key given twice is an error."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        keys = [self.construct_object(key, deep=True) for key, _ in node.value]
+        for index, key in enumerate(keys):
+            if key in keys[:index]:
+                raise InputError(f"{key} is given twice")
+        return super().construct_mapping(node, deep)

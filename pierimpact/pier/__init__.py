@@ -1,0 +1,1 @@
+"""The pier: cross-sections, the column, its member forces, and the equivalent pier."""

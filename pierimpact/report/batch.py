@@ -1,0 +1,245 @@
+"""Many cases: a report each, some at a time, and a summary of all of them."""
+
+import os
+from collections.abc import Iterable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from importlib import import_module
+from pathlib import Path
+from threading import Event, Lock
+from typing import NamedTuple
+
+from tqdm import tqdm
+
+from pierimpact.checks import InputError
+from pierimpact.report.write import (
+    OutputError,
+    Report,
+    ReportError,
+    folder_for,
+    import_libraries,
+    put_in_place,
+    reason_of,
+    stages,
+    write_report,
+)
+
+ENDINGS = (".yaml", ".yml")
+SUMMARY = "summary"  # name of the files of the summary, without ending
+
+# Nearly all the work is the kernels', which are processes of their own.
+_AT_ONCE = min(4, os.cpu_count() or 1)
+
+
+class Failure(NamedTuple):
+    """A case without a report."""
+
+    case: Path
+    reason: str  #: one line that names the case
+    bad_input: bool  #: whether the case file is to blame
+
+
+class Summary(NamedTuple):
+    """The files of the summary."""
+
+    html: Path
+    pdf: Path
+    csv: Path
+
+
+class Batch(NamedTuple):
+    """What came of many cases, each in the order they were given in."""
+
+    reports: list[Report]
+    failures: list[Failure]
+    summary: Summary | None
+    summary_failure: str = ""  #: one line that says why there is no summary where one was due
+
+
+def find_cases(paths: Iterable[str | Path]) -> list[Path]:
+    """Return the case files that paths lead to, each once.
+
+    Parameters
+    ----------
+    paths : iterable of str or Path
+        Case files, and folders that stand for the *.yaml and *.yml right in them, in the order
+        of their names.
+
+    Raises
+    ------
+    InputError
+        When there is no case in a folder, or two cases would write the same files.
+    """
+    found: dict[tuple[str, str], Path] = {}
+    for path in map(Path, paths):
+        try:
+            files = sorted(path.iterdir())
+        except OSError:  # no folder; what is wrong with a file is told when it is read
+            cases = [path]
+        else:
+            cases = [file for file in files if file.suffix.lower() in ENDINGS]
+            cases = [file for file in cases if not file.name.startswith(".")]
+            if not cases:
+                raise InputError(f"{path}: no case in this folder, no *.yaml and no *.yml")
+        for case in cases:
+            found.setdefault((case.name, os.path.realpath(case)), case)
+    _refuse_same_names(list(found.values()))
+    return list(found.values())
+
+
+def write_reports(
+    cases: Sequence[Path], output_dir: str | Path = "reports", *, progress: bool = True
+) -> Batch:
+    """Write the report of each case; where there are more than one, a summary of them too.
+
+    A case that fails stops none of the others, and a summary that fails takes none of the reports
+    with it. The summary is summary.html, summary.pdf and summary.csv; there is none if no case
+    has a report.
+
+    Parameters
+    ----------
+    cases : sequence of Path
+        Case files, from `find_cases`.
+    output_dir : str or Path, optional
+        Folder to write to; it is made if there is none.
+    progress : bool, optional
+        Whether to show a progress bar, where there is a terminal to show it on.
+
+    Raises
+    ------
+    OutputError
+        When the folder cannot be written to.
+    KeyboardInterrupt
+        When interrupted; it says how many reports were written, each of them whole.
+    """
+    output_dir = Path(output_dir).absolute()
+    results = _write_all(cases, output_dir, progress)
+    reports = [result for result in results if isinstance(result, Report)]
+    failures = [result for result in results if isinstance(result, Failure)]
+    if len(cases) == 1 or not reports:
+        return Batch(reports, failures, None)
+    try:
+        return Batch(reports, failures, _write_summary(results, output_dir))
+    except Exception as error:
+        return Batch(reports, failures, None, f"the summary: {_line(reason_of(error))}")
+
+
+def _refuse_same_names(cases: Sequence[Path]) -> None:
+    """Refuse cases whose files would overwrite each other's, or the summary."""
+    owners: dict[str, Path] = {}
+    for case in cases:
+        for name in (case.stem, f"{case.stem}.failed"):
+            # Not all systems tell upper from lower case.
+            other = owners.setdefault(name.casefold(), case)
+            if other != case:
+                raise InputError(
+                    f"{other} and {case} would write files of the same name: rename one"
+                )
+        if len(cases) > 1 and case.stem.casefold() == SUMMARY:
+            raise InputError(f"{case} would overwrite the summary of the cases: rename it")
+
+
+class _Stopped(BaseException):
+    """Ends a report that is under way: not an error of its own, and so not kept as one."""
+
+
+def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[Report | Failure]:
+    """Return the report or failure of each case, in order."""
+    stop, lock = Event(), Lock()
+
+    def write(case: Path) -> Report | Failure:
+        left = stages()
+
+        def on_stage() -> None:
+            nonlocal left
+            if stop.is_set():
+                raise _Stopped
+            with lock:
+                bar.update()
+                left -= 1
+
+        try:
+            return write_report(case, output_dir, on_stage=on_stage)
+        except OutputError:
+            raise  # it is the same for all
+        except InputError as error:
+            return Failure(case, _line(error), bad_input=True)
+        except ReportError as error:
+            return Failure(case, _line(error), bad_input=False)
+        except Exception as error:
+            return Failure(case, f"{case.name}: {_line(reason_of(error))}", bad_input=False)
+        finally:
+            _close_event_loop()
+            with lock:
+                bar.update(left)
+
+    futures: list[Future[Report | Failure]] = []
+    several = len(cases) > 1
+    if several:
+        import_libraries()
+    with (
+        tqdm(
+            total=len(cases) * stages(),
+            desc=f"0 of {len(cases)} cases" if several else cases[0].stem,
+            disable=None if progress else True,
+            leave=False,
+        ) as bar,
+        ThreadPoolExecutor(_AT_ONCE) as executor,
+    ):
+        try:
+            futures += [executor.submit(write, case) for case in cases]
+            for done, future in enumerate(as_completed(futures), 1):
+                future.result()
+                if several:
+                    bar.set_description(f"{done} of {len(cases)} cases")
+        except BaseException as error:
+            stop.set()
+            executor.shutdown(cancel_futures=True)
+            if isinstance(error, KeyboardInterrupt):
+                written = sum(map(_is_written, futures))
+                raise KeyboardInterrupt(f"{written} of {len(cases)} reports written") from None
+            raise
+    return [future.result() for future in futures]
+
+
+def _is_written(future: Future[Report | Failure]) -> bool:
+    if future.cancelled() or future.exception() is not None:
+        return False
+    return isinstance(future.result(), Report)
+
+
+def _close_event_loop() -> None:
+    """Close the event loop that Jupyter opens in each thread and leaves open."""
+    from jupyter_core.utils import ensure_event_loop
+
+    ensure_event_loop().close()
+
+
+def _line(error: Exception | str) -> str:
+    """Return a message as one line that can be written as UTF-8, whatever a file is called."""
+    return " ".join(str(error).encode("utf-8", "backslashreplace").decode().split())
+
+
+def _write_summary(results: Sequence[Report | Failure], output_dir: Path) -> Summary:
+    """Write the summary in all its formats, all or none."""
+    from pierimpact.report.calculation import calculate
+    from pierimpact.report.summary import Row, summary_blocks, summary_csv
+
+    exporters = import_module(
+        "pierimpact.report.exporters"
+    )  # it takes a while: no error waits for it
+    rows = [
+        Row(result.html.stem, calculate(result.case), result.warnings)
+        if isinstance(result, Report)
+        else Row(result.case.stem, None, [result.reason])
+        for result in results
+    ]
+    notebook = exporters.notebook_of(summary_blocks(rows))
+    with folder_for(output_dir, SUMMARY) as folder:
+        files = Summary(*(folder / f"{SUMMARY}.{ending}" for ending in ("html", "pdf", "csv")))
+        page, _ = exporters.SheetHTMLExporter().from_notebook_node(notebook)
+        files.html.write_text(page, encoding="utf-8")
+        pdf, _ = exporters.SheetPDFExporter().from_notebook_node(notebook)
+        files.pdf.write_bytes(pdf)
+        files.csv.write_bytes(summary_csv(rows).encode("utf-8"))
+        put_in_place(files, output_dir)
+    return Summary(*(output_dir / file.name for file in files))

@@ -1,0 +1,137 @@
+"""The calculation of a case: from the nominal impact height to reactions and member forces."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from pierimpact.collision.history import CollisionHistory, Peak
+from pierimpact.collision.simulate import simulate
+from pierimpact.design.reaction import (
+    LOW_IMPACT_HEIGHT,
+    DesignReaction,
+    design_reaction,
+    nominal_impact_height,
+)
+from pierimpact.design.sensitivity import Sensitivity, sensitivity
+from pierimpact.files.case import Case
+from pierimpact.pier.column import StruckColumn
+from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.pier.member_forces import MemberForces
+
+
+@dataclass(frozen=True, kw_only=True)
+class Calculation:
+    """A case, calculated.
+
+    Parameters
+    ----------
+    case : Case
+        What was asked.
+    struck : StruckColumn
+        The column under a unit force at the nominal impact height.
+    pier : EquivalentPier
+        The pier as one degree of freedom.
+    history : CollisionHistory
+        The collision by the full model.
+    design : DesignReaction
+        The design procedure in full, on its refined level.
+    trial : CollisionHistory or None
+        The collision at the lower nominal height, where the height was left to the rule.
+    """
+
+    case: Case
+    struck: StruckColumn
+    pier: EquivalentPier
+    history: CollisionHistory
+    design: DesignReaction
+    trial: CollisionHistory | None
+
+    @property
+    def governing_peak(self) -> Peak:
+        """The larger of engine and cargo peak of the full model."""
+        return self.history.governing_peak
+
+    @property
+    def design_force(self) -> float:
+        """The result: the reaction of the design procedure, or the full model's if larger [N].
+
+        The procedure can be followed by hand, and errs on either side by some per cent; the full
+        model is exact, and cannot. So the number that can be followed is never on the unsafe side
+        of the one that is exact.
+        """
+        return max(self.design.reaction, self.governing_peak.reaction)
+
+    @property
+    def decisive(self) -> str:
+        """Which of the two the result is from."""
+        return "design procedure" if self.ratio >= 1.0 else "full model"
+
+    @property
+    def governs(self) -> str:
+        """Which peak the result is, by the method that it is from: engine or cargo."""
+        if self.ratio >= 1.0:
+            return self.design.governs
+        return "engine" if self.governing_peak == self.history.engine_peak else "cargo"
+
+    @property
+    def ratio(self) -> float:
+        """Reaction of the design procedure over the governing peak of the full model [-]."""
+        return self.design.reaction / self.governing_peak.reaction
+
+    @cached_property
+    def hand(self) -> DesignReaction:
+        """The design procedure on its hand level."""
+        return design_reaction(self.case.truck, self.pier, self.case.inputs.speed, "hand")
+
+    @cached_property
+    def sensitivity(self) -> Sensitivity:
+        """The reaction as speed, truck mass, impact height and pier frequency change."""
+        return sensitivity(
+            self.case.truck,
+            self.case.column,
+            self.pier,
+            self.struck.impact_height,
+            self.case.inputs.speed,
+        )
+
+    @property
+    def member_forces(self) -> MemberForces:
+        """Member forces under the design force as a static force."""
+        return self.struck.member_forces(self.design_force)
+
+    @property
+    def utilisations(self) -> dict[str, float]:
+        """Demand over resistance, "shear" and "moment", where the case gives a resistance [-]."""
+        inputs, forces = self.case.inputs, self.member_forces
+        demands = {
+            "shear": (forces.largest_shear.value, inputs.shear_resistance),
+            "moment": (forces.largest_moment.value, inputs.moment_resistance),
+        }
+        return {
+            name: abs(demand) / resistance
+            for name, (demand, resistance) in demands.items()
+            if resistance is not None
+        }
+
+
+def calculate(case: Case) -> Calculation:
+    """Calculate a case."""
+    trial = None
+    height = case.inputs.impact_height
+    if height == "auto":
+        trial = _collision(case, LOW_IMPACT_HEIGHT)[1]
+        cargo = trial.cargo_peak.reaction if trial.cargo_peak else None
+        height = nominal_impact_height(trial.engine_peak.reaction, cargo)
+    pier, history = _collision(case, height)
+    return Calculation(
+        case=case,
+        struck=case.column.struck_at(height),
+        pier=pier,
+        history=history,
+        design=design_reaction(case.truck, pier, case.inputs.speed),
+        trial=trial,
+    )
+
+
+def _collision(case: Case, impact_height: float) -> tuple[EquivalentPier, CollisionHistory]:
+    pier = case.column.equivalent(impact_height, case.inputs.damping_ratio)
+    return pier, simulate(case.truck, pier, case.inputs.speed)

@@ -1,0 +1,1 @@
+"""What a sheet is made of: text, mathematics, tables, equations and figures."""

@@ -1,0 +1,330 @@
+"""The summary of many cases, a row each: as a sheet, and as CSV for a spreadsheet."""
+
+import csv
+import datetime
+import io
+import re
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
+
+import pierimpact
+from pierimpact.report.calculation import Calculation
+from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph, TitleBlock
+from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
+from pierimpact.report.document.numbered import Column, Table
+from pierimpact.report.sheet.cautions import limits_of_the_study
+from pierimpact.report.sheet.inputs import STATUS_WORDS
+from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
+
+NONE = "none"  # instead of a peak that is not there
+
+
+class Row(NamedTuple):
+    """A case of the summary."""
+
+    name: str  #: of its report's files, without ending
+    calculation: Calculation | None  #: None where it has no report
+    remarks: Sequence[str]  #: warnings of its report, or why there is none
+
+
+class _Quantity(NamedTuple):
+    """A value of each case: a column of a table and one of the CSV."""
+
+    name: str
+    heading: Piece
+    quantity: str
+    value: Callable[[Calculation], float | None]
+    given: bool = False
+
+
+_GIVEN = (
+    _Quantity(
+        "truck mass", Tex("m_1 + m_2"), "mass", lambda result: result.case.truck.mass, given=True
+    ),
+    _Quantity("speed", Tex("V"), "speed", lambda result: result.case.inputs.speed, given=True),
+    _Quantity(
+        "impact height",
+        Tex(r"z_\mathrm{n}"),
+        "length",
+        lambda result: result.struck.impact_height,
+        given=True,
+    ),
+)
+_RESULTS = (
+    _Quantity(
+        "pier frequency", Tex(r"f_\mathrm{p}"), "frequency", lambda result: result.pier.frequency
+    ),
+    _Quantity(
+        "engine peak", "Engine peak", "force", lambda result: result.history.engine_peak.reaction
+    ),
+    _Quantity(
+        "cargo peak",
+        "Cargo peak",
+        "force",
+        lambda result: cargo.reaction if (cargo := result.history.cargo_peak) else None,
+    ),
+    _Quantity(
+        "design reaction",
+        "Design reaction",
+        "force",
+        lambda result: result.design_force,
+    ),
+)
+_UTILISATIONS = ("shear", "moment")
+
+
+def summary_blocks(rows: Sequence[Row]) -> list[Block]:
+    """Return the summary sheet of cases, at least one of which is calculated."""
+    results = _calculated(rows)
+    system = _system(results.values())
+    blocks = [_title_block(list(results.values()), system), _headline(rows, system)]
+    failures = [row.remarks for row in rows if row.calculation is None]
+    if failures:
+        blocks.append(Notice(heading="Not calculated", body=["; ".join(why) for why in failures]))
+    blocks += [_results_table(rows, system), _cases_table(rows, system)]
+    if len({result.case.inputs.units for result in results.values()}) > 1:
+        blocks.append(Paragraph("The reports are not all in the same units; this table is in SI."))
+    blocks.append(
+        Paragraph(
+            (
+                "The report of each case says what its values rest on, and its assumptions and "
+                "limits. The same values with all their digits are in ",
+                Code("summary.csv"),
+                f". Made by pierimpact {pierimpact.__version__}.",
+            )
+        )
+    )
+    return blocks
+
+
+def summary_csv(rows: Sequence[Row]) -> str:
+    """Return the summary as comma-separated values, numbers unrounded and units in the header.
+
+    Text is in quotes; none of it can be taken for a formula.
+    """
+    system = _system(_calculated(rows).values())
+    columns = (*_GIVEN, *_RESULTS)
+    quantities = [f"{column.name} [{unit_of(column.quantity, system)}]" for column in columns]
+    utilisations = [f"utilisation in {name}" for name in _UTILISATIONS]
+    words = ["case", "project", "job number", "element", "column", "truck"]
+    header = [*words, *quantities, "governs", *utilisations, "status", "remarks"]
+    text = io.StringIO()
+    # In the order of the header; a value that is not there is an empty field.
+    writer = csv.writer(text, quoting=csv.QUOTE_NONNUMERIC)
+    writer.writerow(header)
+    for name, result, remarks in rows:
+        values: list[str | float | None] = [None] * (len(header) - 3)
+        if result is not None:
+            inputs, truck = result.case.inputs, result.case.truck.name
+            values = [
+                *(inputs.project, inputs.job_number, inputs.element, _column(result, system)),
+                truck,
+                *(_in_unit(column, result, system) for column in columns),
+                result.governs,
+                *(result.utilisations.get(check) for check in _UTILISATIONS),
+            ]
+        status = "not calculated" if result is None else "calculated"
+        all_remarks = "; ".join((*_remarks(result, system), *remarks))
+        cells = [name, *values, status, all_remarks]
+        writer.writerow([no_formula(cell) if isinstance(cell, str) else cell for cell in cells])
+    return text.getvalue()
+
+
+def no_formula(text: str) -> str:
+    """Return text with an apostrophe before what a spreadsheet would take for a formula.
+
+    That is at the start, and after a semicolon, where many a spreadsheet starts a field.
+    """
+    return re.sub(r"(^|;)(\s*[=+\-@＝＋－＠])", r"\1'\2", text)
+
+
+def _calculated(rows: Iterable[Row]) -> dict[str, Calculation]:
+    return {row.name: row.calculation for row in rows if row.calculation is not None}
+
+
+def _system(results: Iterable[Calculation]) -> str:
+    """Return the units that all cases print in; SI where they differ."""
+    systems = {result.case.inputs.units for result in results}
+    return systems.pop() if len(systems) == 1 else "SI"
+
+
+def _title_block(results: Sequence[Calculation], system: str) -> Block:
+    inputs = [result.case.inputs for result in results]
+    date = max(one.date or datetime.date.today() for one in inputs).isoformat()
+
+    def common(key: str) -> str:
+        texts = {getattr(one, key) for one in inputs}
+        return texts.pop() if len(texts) == 1 else "several"
+
+    return TitleBlock(
+        title="Truck collisions with bridge piers",
+        subtitle="Summary of calculation sheets. Coupled mass-spring-damper (CMSD) model of the "
+        "collision",
+        entries={
+            "Project": common("project"),
+            "Element": f"{len(results)} cases" if len(results) > 1 else common("element"),
+            "Job number": common("job_number"),
+            "Revision": common("revision"),
+            "Prepared by": common("prepared_by"),
+            "Checked by": common("checked_by"),
+            "Date": date,
+        },
+        date=date,
+        paper="a4" if system == "SI" else "us-letter",
+        landscape=True,
+    )
+
+
+def _headline(rows: Sequence[Row], system: str) -> Block:
+    """Return how many cases there are, and the worst of them."""
+    results = _calculated(rows)
+    worst = max(results, key=lambda name: results[name].design_force)
+    reaction = printed(results[worst].design_force, "force", system)
+    entries = [
+        ("Cases calculated", Printed(str(len(results)), ""), f"of {len(rows)}"),
+        ("Largest design reaction", reaction, worst),
+    ]
+    ratios = [
+        (ratio, check, name)
+        for name, result in results.items()
+        for check, ratio in result.utilisations.items()
+    ]
+    if ratios:
+        ratio, check, name = max(ratios)
+        entries.append(
+            ("Largest utilisation", Printed(rounded(ratio, 3), ""), f"{name}, in {check}")
+        )
+    return Headline(results=entries)
+
+
+def _results_table(rows: Sequence[Row], system: str) -> Block:
+    """Return what came of the calculated cases, a row each."""
+    results = _calculated(rows)
+    remarks = {row.name: row.remarks for row in rows}
+    checks = [
+        check
+        for check in _UTILISATIONS
+        if any(check in result.utilisations for result in results.values())
+    ]
+    cells: list[list[Inline]] = [
+        [
+            _link(name),
+            *(_shown(column, result, system) for column in _RESULTS),
+            result.governs,
+            *(
+                rounded(result.utilisations[check], 3) if check in result.utilisations else "—"
+                for check in checks
+            ),
+            "; ".join((*_remarks(result, system), *remarks[name])) or "—",
+        ]
+        for name, result in results.items()
+    ]
+    return Table(
+        label="tab-results",
+        caption=(
+            "Results. Engine and cargo peak are those of the full model; the design reaction is "
+            "the larger of its and of the design procedure’s, and ",
+            Tex(r"f_\mathrm{p}"),
+            " the frequency of the pier.",
+        ),
+        columns=[
+            Column(heading="Case"),
+            *(_heading(column, system) for column in _RESULTS),
+            Column(heading="Governs"),
+            *(Column(heading=f"Utilisation, {check}", align="decimal") for check in checks),
+            Column(heading="Remarks", wide=True),
+        ],
+        rows=cells,
+    )
+
+
+def _cases_table(rows: Sequence[Row], system: str) -> Block:
+    """Return what strikes what in the calculated cases, a row each."""
+    results = _calculated(rows)
+    # A project that all share stands in the title block.
+    projects = len({result.case.inputs.project for result in results.values()}) > 1
+    cells: list[list[Inline]] = [
+        [
+            _link(name),
+            *([result.case.inputs.project] if projects else []),
+            result.case.inputs.element,
+            _column(result, system),
+            result.case.truck.name,
+            *(_shown(column, result, system) for column in _GIVEN),
+        ]
+        for name, result in results.items()
+    ]
+    return Table(
+        label="tab-cases",
+        caption=(
+            "Cases: total mass of the truck ",
+            Tex("m_1 + m_2"),
+            ", speed at first touch ",
+            Tex("V"),
+            " and nominal impact height ",
+            Tex(r"z_\mathrm{n}"),
+            ".",
+        ),
+        columns=[
+            Column(heading="Case"),
+            *([Column(heading="Project", wide=True)] if projects else []),
+            Column(heading="Element", wide=True),
+            Column(heading="Column", wide=True),
+            Column(heading="Truck"),
+            *(_heading(column, system) for column in _GIVEN),
+        ],
+        rows=cells,
+    )
+
+
+def _link(name: str) -> Link:
+    return Link(name, f"{name}.html")
+
+
+def _heading(column: _Quantity, system: str) -> Column:
+    return Column(
+        heading=(column.heading, f" [{unit_of(column.quantity, system)}]"), align="decimal"
+    )
+
+
+def _in_unit(column: _Quantity, result: Calculation, system: str) -> float | None:
+    value = column.value(result)
+    return None if value is None else value / unit_size(column.quantity, system)
+
+
+def _shown(column: _Quantity, result: Calculation, system: str) -> str:
+    value = column.value(result)
+    if value is None:
+        return NONE
+    return printed(value, column.quantity, system, given=column.given).number
+
+
+def _column(result: Calculation, system: str) -> str:
+    """Return the column in a few words."""
+    inputs = result.case.inputs
+    sizes = [
+        printed(size, "section length", system, given=True)
+        for size in (inputs.column_diameter, inputs.column_width, inputs.column_depth)
+        if size is not None
+    ]
+    section = " × ".join(size.number for size in sizes)
+    height = printed(inputs.column_height, "length", system, given=True)
+    return (
+        f"{inputs.column_shape} {section} {sizes[0].unit}, {height} high, "
+        f"base {inputs.base}, top {inputs.top}"
+    )
+
+
+def _remarks(result: Calculation | None, system: str) -> list[str]:
+    """Return what to know before relying on a row."""
+    if result is None:
+        return []
+    status, assumed = result.case.truck_file.status, len(result.case.inputs.assumed)
+    remarks = [] if status == "read" else [f"truck {STATUS_WORDS[status]}"]
+    if assumed:
+        remarks.append(f"{assumed} input{'s' * (assumed > 1)} assumed")
+    if result.history.engine_contact_time is None:
+        remarks.append("no engine contact")
+    remarks += limits_of_the_study(result, system)
+    exceeded = [check for check, ratio in result.utilisations.items() if ratio > 1.0]
+    return remarks + [f"exceeds the resistance to {check}" for check in exceeded]

@@ -1,0 +1,315 @@
+"""The validation notebook's blocks: the design procedure against the full model."""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pierimpact.collision.groups import take
+from pierimpact.collision.regimes import Collision
+from pierimpact.design import domain
+from pierimpact.design.formulas import amplification
+from pierimpact.design.procedure import LEVELS
+from pierimpact.design.reduction import exact_amplification
+from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
+from pierimpact.design.study import (
+    FOLLOWED,
+    SEED,
+    SIZE,
+    Reactions,
+    Summary,
+    assessment,
+    full_model,
+    predictions,
+    spectrum_arguments,
+    speed_errors,
+    summary,
+    with_truck,
+)
+from pierimpact.plots import validation as spectrum_figures
+from pierimpact.report.document.blocks import Block
+from pierimpact.report.document.markup import Inline
+from pierimpact.report.document.numbered import Column, Figure, Table
+from pierimpact.vehicle.crush import CrushSpring
+from pierimpact.vehicle.truck import Truck
+
+Array = NDArray[np.float64]
+
+_FEW = 2000  # so many cases tell enough about one truck or one way out of the domain
+_COLUMNS = ("cases", "mean", "coefficient of variation", "1st percentile", "smallest", "largest")
+
+#: A truck quite unlike the reference: its parameters are round numbers, to see what the formulas
+#: do with them, and describe no truck that was tested.
+TRACTOR_TRAILER = Truck(
+    name="tractor-trailer-36t",
+    engine_mass=1200.0,
+    body_mass=34.8e3,
+    engine_spring=CrushSpring(
+        plateau_force=300e3, plateau_length=0.8, stiffness=250e6, unloading_stiffness=1500e6
+    ),
+    body_spring=CrushSpring(
+        plateau_force=900e3, plateau_length=3.0, stiffness=20e6, unloading_stiffness=120e6
+    ),
+    friction_force=100e3,
+    source="illustrative round numbers",
+)
+
+
+@dataclass(frozen=True)
+class Validation:
+    """Random collisions of the studied domain, by the full model and by the design procedure.
+
+    Parameters
+    ----------
+    size : int, optional
+        Number of collisions.
+    seed : int, optional
+        Seed of the random numbers; not the one that the formulas were fitted on.
+    """
+
+    size: int = SIZE
+    seed: int = SEED + 1
+
+    @cached_property
+    def _case(self) -> Collision:
+        return domain.sample(self.size, self.seed)
+
+    @cached_property
+    def _exact(self) -> Reactions:
+        return full_model(self._case)
+
+    @cached_property
+    def _predicted(self) -> dict[str, Reactions]:
+        return {level: predictions(self._case, level) for level in LEVELS}
+
+    def domain_table(self) -> Block:
+        """Return what was varied, and from where to where."""
+        return Table(
+            label="tab-domain",
+            caption="The studied domain: random values between these limits.",
+            columns=[
+                Column(heading="Value", wide=True),
+                Column(heading="From", align="decimal"),
+                Column(heading="To", align="decimal"),
+                Column(heading="Unit"),
+            ],
+            rows=[
+                [name.capitalize(), f"{low:g}", f"{high:g}", unit]
+                for name, (low, high, unit, _) in domain.DOMAIN.items()
+            ],
+        )
+
+    def scatter(self, level: str) -> Block:
+        """Return the predicted reactions against those of the full model."""
+        ratios = self._governing(level)
+        return Figure(
+            label=f"fig-scatter-{level}",
+            caption=f"Predicted reactions ({level} level) against those of the full model. "
+            "Dotted lines: 10 % more and less.",
+            alt=f"Scatter plot of {self.size} collisions on three panels, engine, cargo and "
+            f"governing. {_in_words(ratios)}",
+            svg=spectrum_figures.draw_scatter(
+                domain.values(self._case)["pier frequency"],
+                self._exact,
+                self._predicted[level],
+                "SI",
+            ),
+        )
+
+    def ratios(self, level: str) -> Block:
+        """Return predicted over full-model reactions against the pier's frequency."""
+        return Figure(
+            label=f"fig-ratios-{level}",
+            caption=f"Predicted ({level} level) over full-model reaction against pier frequency.",
+            alt="Ratio against pier frequency on three panels, engine, cargo and governing. "
+            + _in_words(self._governing(level)),
+            svg=spectrum_figures.draw_ratios(
+                domain.values(self._case)["pier frequency"], self._exact, self._predicted[level]
+            ),
+        )
+
+    def _governing(self, level: str) -> Summary:
+        return summary(self._predicted[level].governing / self._exact.governing)
+
+    def bands(self, level: str, which: str) -> Block:
+        """Return the statistics by frequency band.
+
+        Parameters
+        ----------
+        level : {"refined", "hand"}
+            Level of the formulas.
+        which : {"engine", "cargo", "governing"}
+            Which reaction.
+        """
+        found = assessment(self._case, self._exact, self._predicted[level])[which]
+        return _table(
+            f"tab-{level}-{which}",
+            f"Predicted over full-model reaction: {which}, {level} level.",
+            "Pier frequency",
+            found.items(),
+        )
+
+    def spectrum(self) -> Block:
+        """Return how near the closed spectrum is to the exact one, over the domain."""
+        arguments = spectrum_arguments(self._case)
+        ratios = amplification(*arguments) / exact_amplification(*arguments)
+        return _table(
+            "tab-spectrum",
+            "Closed over exact amplification.",
+            "Body",
+            (
+                ("Engine", summary(ratios[: self.size])),
+                ("Cargo", summary(ratios[self.size :])),
+            ),
+        )
+
+    def approach_speeds(self) -> Block:
+        """Return how far the speeds at contact are off."""
+        found = speed_errors(take(self._case, slice(0, FOLLOWED)))
+        rows: list[list[Inline]] = [
+            [
+                f"{body.capitalize()}, {level}",
+                str(int(errors["cases"])),
+                *(
+                    f"{100.0 * errors[name]:.2f}".replace("-", "−")
+                    for name in ("mean", "standard deviation", "smallest", "largest")
+                ),
+            ]
+            for level, bodies in found.items()
+            for body, errors in bodies.items()
+        ]
+        return Table(
+            label="tab-speeds",
+            caption="Approach speed less the speed at contact by the full model, in per cent of "
+            "the truck’s speed.",
+            columns=[
+                Column(heading="Body and level", wide=True),
+                Column(heading="Cases", align="decimal"),
+                Column(heading="Mean", align="decimal"),
+                Column(heading="Standard deviation", align="decimal"),
+                Column(heading="Smallest", align="decimal"),
+                Column(heading="Largest", align="decimal"),
+            ],
+            rows=rows,
+        )
+
+    def trucks(self, trucks: Sequence[Truck]) -> Block:
+        """Return the statistics of the governing reaction for other trucks, on the same piers."""
+        few = take(self._case, slice(0, _FEW))
+        return _table(
+            "tab-trucks",
+            "Predicted over full-model governing reaction: one truck on the piers of the domain, "
+            "at its speeds.",
+            "Truck and level",
+            _both_levels(
+                {
+                    f"{truck.name}, {truck.mass / 1e3:g} t": with_truck(few, truck)
+                    for truck in trucks
+                }
+            ),
+        )
+
+    def beyond(self) -> Block:
+        """Return the statistics of the governing reaction where one thing leaves the domain."""
+        few = take(self._case, slice(0, _FEW))
+        random, size = np.random.default_rng(self.seed), len(few.speed)
+        found = domain.values(few)
+        frequency, damping = found["pier frequency"], found["damping ratio"]
+        quarter = few.body._replace(plateau_length=0.25 * few.body.plateau_length)
+
+        def between(low: float, high: float) -> Array:
+            return random.uniform(low, high, size)
+
+        return _table(
+            "tab-beyond",
+            "Predicted over full-model governing reaction where one thing leaves the domain.",
+            "What leaves it, and level",
+            _both_levels(
+                {
+                    "Pier frequency 3–5 Hz": _pier(few, between(3.0, 5.0), damping),
+                    "Damping 0–2 %": _pier(few, frequency, between(0.0, 0.02)),
+                    "Damping 7–20 %": _pier(few, frequency, between(0.07, 0.2)),
+                    "Speed 30–50 km/h": few._replace(speed=between(30.0, 50.0) / 3.6),
+                    "Speed 110–160 km/h": few._replace(speed=between(110.0, 160.0) / 3.6),
+                    "Cargo four times as near": few._replace(body=quarter),
+                }
+            ),
+        )
+
+
+def _both_levels(cases: dict[str, Collision]) -> Iterator[tuple[str, Summary]]:
+    for name, case in cases.items():
+        exact = full_model(case)
+        for level in LEVELS:
+            ratios = predictions(case, level).governing / exact.governing
+            yield f"{name}, {level}", summary(ratios)
+
+
+def _pier(case: Collision, frequency: Array, damping_ratio: Array) -> Collision:
+    """Return the collisions with piers of the same mass but another frequency [Hz] and damping."""
+    stiffness = case.pier_mass * (2.0 * math.pi * frequency) ** 2
+    damping = 2.0 * damping_ratio * np.sqrt(stiffness * case.pier_mass)
+    return case._replace(pier_stiffness=stiffness, pier_damping=damping)
+
+
+def unified_spectrum(mass_ratios: Sequence[float], restitution: float, damping: float) -> Block:
+    """Return the unified spectrum, exact and closed; arguments as in `draw_amplification`."""
+    return Figure(
+        label="fig-amplification",
+        caption="The unified spectrum for three mass ratios.",
+        alt="Amplification against frequency ratio: it rises in proportion at first, is largest "
+        "at a ratio of about two and settles at one; the closed form follows the exact curves.",
+        svg=spectrum_figures.draw_amplification(mass_ratios, restitution, damping),
+    )
+
+
+def routes(truck: Truck, speed: float, pier_mass: float) -> Block:
+    """Return engine and cargo reaction of a truck against pier frequency, by three routes."""
+    engine, cargo = (
+        spectrum(truck, speed, pier_mass) for spectrum in (engine_spectrum, cargo_spectrum)
+    )
+    highest = [
+        f"{name} {np.nanmax(spectrum.full_model) / 1e6:.2f} MN"
+        for name, spectrum in (("engine", engine), ("cargo", cargo))
+        if np.isfinite(spectrum.full_model).any()
+    ]
+    return Figure(
+        label="fig-routes",
+        caption=f"Spectra of {truck.name} at {3.6 * speed:.3g} km/h on piers of "
+        f"{pier_mass / 1e3:g} t, by three routes.",
+        alt="Engine and cargo reaction against pier frequency; highest by the full model: "
+        + ", ".join(highest),
+        svg=spectrum_figures.draw_routes(engine, cargo, "SI"),
+    )
+
+
+def _in_words(ratios: Summary) -> str:
+    return (
+        f"The governing reaction is predicted {ratios['mean']:.3f} times as large on average, "
+        f"with a coefficient of variation of {ratios['coefficient of variation']:.3f}."
+    )
+
+
+def _table(label: str, caption: str, heading: str, rows: Iterable[tuple[str, Summary]]) -> Block:
+    rows = list(rows)
+    headings = [name[0].upper() + name[1:] for name in _COLUMNS]
+    return Table(
+        label=label,
+        caption=caption,
+        columns=[
+            Column(heading=heading, wide=True),
+            *(Column(heading=name, align="decimal") for name in headings),
+        ],
+        rows=[
+            [
+                "All" if name == "all" else name,
+                str(found["cases"]),
+                *(f"{found[column]:.3f}" if found["cases"] else "–" for column in _COLUMNS[1:]),
+            ]
+            for name, found in rows
+        ],
+        strong=[index for index, (name, _) in enumerate(rows) if name == "all"],
+    )

@@ -1,0 +1,115 @@
+"""Opening the teaching notebooks: in JupyterLab, or the explorer alone as a Voilà page."""
+
+import os
+import shutil
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+from pierimpact.checks import InputError
+from pierimpact.resources import PACKAGE, shipped
+
+#: Folder for the reader's own copies, unless another is asked for.
+DEFAULT_FOLDER = "pierimpact-notebooks"
+
+
+class TeachError(RuntimeError):
+    """The notebooks cannot be opened; the message says why in one line."""
+
+
+def teaching_files() -> list[Path]:
+    """Return the notebooks and their example."""
+    folder = shipped("notebooks")
+    return sorted([*folder.glob("0*.ipynb"), folder / "explorer.ipynb", *folder.glob("*.yaml")])
+
+
+def copy_notebooks(folder: str | Path = DEFAULT_FOLDER) -> Path:
+    """Copy the notebooks to a folder of the reader's; what is there already is kept as it is.
+
+    Parameters
+    ----------
+    folder : str or Path, optional
+        Where to; it is made if there is none.
+
+    Returns
+    -------
+    Path
+        The folder, absolute.
+
+    Raises
+    ------
+    InputError
+        When the folder cannot be written to.
+    """
+    folder = Path(folder).absolute()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for file in teaching_files():
+            if not (folder / file.name).exists():
+                shutil.copyfile(file, folder / file.name)
+    except OSError as error:
+        raise InputError(f"folder {folder} cannot be written to: {error.strerror}") from None
+    return folder
+
+
+def open_notebooks(folder: str | Path = DEFAULT_FOLDER, *, browser: bool = True) -> int:
+    """Open the course in JupyterLab and return the exit code when it ends.
+
+    Parameters
+    ----------
+    folder : str or Path, optional
+        Where the reader's copies of the notebooks are, or come to be.
+    browser : bool, optional
+        Whether to open a browser.
+
+    Raises
+    ------
+    InputError
+        When the folder cannot be written to.
+    TeachError
+        When JupyterLab or the widgets are not installed.
+    """
+    _need("jupyterlab", "ipywidgets")
+    options = [] if browser else ["--no-browser"]
+    return _run(["jupyterlab", *options, "01_collision.ipynb"], copy_notebooks(folder))
+
+
+def serve_app(folder: str | Path = DEFAULT_FOLDER, *, browser: bool = True) -> int:
+    """Serve the explorer as a page without code, and return the exit code when it ends.
+
+    Parameters
+    ----------
+    folder, browser
+        As in `open_notebooks`.
+
+    Raises
+    ------
+    InputError
+        When the folder cannot be written to.
+    TeachError
+        When Voilà or the widgets are not installed.
+    """
+    _need("voila", "ipywidgets")
+    options = [] if browser else ["--no-browser"]
+    return _run(["voila", *options, "explorer.ipynb"], copy_notebooks(folder))
+
+
+def _need(*modules: str) -> None:
+    for module in modules:
+        if find_spec(module) is None:
+            raise TeachError(
+                f"the notebooks need {module}: python -m pip install 'pierimpact[teach]'"
+            )
+
+
+def _run(arguments: list[str], folder: Path) -> int:
+    # The kernels start in the reader's folder, where a checkout would not be found.
+    paths = [str(PACKAGE.parent), *filter(None, [os.environ.get("PYTHONPATH")])]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths)}
+    try:
+        return subprocess.run(
+            [sys.executable, "-m", *arguments], cwd=folder, env=environment, check=False
+        ).returncode
+    except KeyboardInterrupt:  # how one leaves a server
+        return 0

@@ -1,0 +1,1 @@
+"""The truck and the crush law of its springs."""
