@@ -1,0 +1,407 @@
+"""A calculation written once: a function that computes, and whose steps print as a checker reads.
+
+A calculation is a function whose body is a list of `symbol = expression`, in ordinary Python on
+floats or arrays. Called, it computes. Asked for its steps, it reads them off its own source: the
+equation in symbols, to be printed once more with the values put in.
+
+- `where(condition, a, b)` prints as the side that the values take, with the condition beside it.
+- Only the steps that the results rest on in this case are printed.
+- A function of one `return` that a step calls, a formula, prints in full.
+- `a, b = part(…)` prints the lines of `part`, itself a list of `symbol = expression`, under the
+  names on the left.
+- A comment behind a line prints beside its step.
+"""
+
+import ast
+import inspect
+import io
+import textwrap
+import tokenize
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache, cached_property
+from typing import Any, NamedTuple, TypeVar
+
+Node = TypeVar("Node", bound=ast.AST)
+
+_CALLS = {
+    "abs": r"\left|%s\right|",
+    "arctan": r"\arctan(%s)",
+    "arctan2": r"\operatorname{atan2}(%s)",
+    "cos": r"\cos(%s)",
+    "exp": r"\mathrm{e}^{%s}",
+    "floor": r"\left\lfloor %s \right\rfloor",
+    "hypot": r"\sqrt{%s^2 + %s^2}",
+    "maximum": r"\max(%s)",
+    "minimum": r"\min(%s)",
+    "mod": r"%s \bmod %s",
+    "sin": r"\sin(%s)",
+    "sqrt": r"\sqrt{%s}",
+}  # fmt: skip
+_COMPARISONS: dict[type[ast.cmpop], tuple[str, str]] = {  # that holds, and that does not
+    ast.Gt: (">", r"\le"),
+    ast.GtE: (r"\ge", "<"),
+    ast.Lt: ("<", r"\ge"),
+    ast.LtE: (r"\le", ">"),
+}
+_ALONE, _SUM, _PRODUCT, _POWER = range(4)  # how tightly the surroundings bind
+
+
+class CalculationError(TypeError):
+    """A calculation has something in it that does not print."""
+
+
+class Condition(NamedTuple):
+    """A condition that decided a `where`, and whether it holds."""
+
+    expression: ast.expr
+    holds: bool
+
+    def latex(self, symbols: Mapping[str, str]) -> str:
+        """Return what holds in LaTeX: the condition, or its contrary; a flag as its name."""
+        match self.expression:
+            case ast.Compare(left=left, ops=[comparison], comparators=[right]):
+                sign = _COMPARISONS[type(comparison)][0 if self.holds else 1]
+                printer = _Printer(symbols, r"\,")
+                return f"{printer.text(left)} {sign} {printer.text(right)}"
+            case ast.Name(id=name):
+                return symbols[name] if self.holds else rf"\text{{no }}{symbols[name]}"
+        raise _unprintable("the condition", self.expression)
+
+
+class Step(NamedTuple):
+    """A step of a calculation, as it applies to the values of one case."""
+
+    name: str  #: of the symbol that it gives
+    expression: ast.expr
+    conditions: tuple[Condition, ...]  #: why this expression
+    remark: str  #: what stands behind the line, such as its source
+
+    def latex(self, shown: Mapping[str, str], times: str = r"\,") -> str:
+        r"""Return the expression in LaTeX.
+
+        Parameters
+        ----------
+        shown : mapping of str to str
+            What to print for each name: its symbol, or its value.
+        times : str, optional
+            What stands between factors: a space between symbols, `\times` between values.
+        """
+        return _Printer(shown, times).text(self.expression)
+
+    @property
+    def names(self) -> set[str]:
+        """The names that the expression is made of."""
+        return _names(self.expression)
+
+
+class _Line(NamedTuple):
+    """A line of a calculation as written, with the names of parts already those of the caller."""
+
+    name: str
+    expression: ast.expr
+    remark: str
+
+
+class Calculation:
+    """A calculation; use as a decorator of the function that is one.
+
+    The function takes numbers or arrays by name, and returns `locals()`.
+
+    Parameters
+    ----------
+    function : callable
+        The function. A part or formula may be among its arguments, by default the one to print.
+    """
+
+    def __init__(self, function: Callable[..., dict[str, Any]]) -> None:
+        self.function = function
+        self.__doc__ = function.__doc__
+
+    def __call__(self, **given: Any) -> dict[str, Any]:
+        """Return every value by name, those given included."""
+        found = self.function(**given)
+        return {name: value for name, value in found.items() if not callable(value)}
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """The names of the values that it starts from."""
+        parameters = inspect.signature(self.function).parameters.values()
+        return tuple(p.name for p in parameters if not callable(p.default) or p.default is p.empty)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the values that it gives, in order."""
+        return tuple(line.name for line in self._lines)
+
+    @cached_property
+    def _lines(self) -> list[_Line]:
+        return _lines(self.function)
+
+    def steps(self, values: Mapping[str, Any], results: Iterable[str]) -> list[Step]:
+        """Return the steps that results rest on in one case, in order.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            What the calculation returned.
+        results : iterable of str
+            Names of the results.
+
+        Raises
+        ------
+        CalculationError
+            When the calculation has something in it that does not print.
+        """
+        needed, found = set(results), list[Step]()
+        for name, expression, remark in reversed(self._lines):
+            if name not in needed:
+                continue
+            case = _Case(_scope(self.function), values)
+            applies = case.visit(_copy(expression))
+            step = Step(name, applies, tuple(case.conditions), remark)
+            needed |= step.names | {n for c in step.conditions for n in _names(c.expression)}
+            found.append(step)
+        return found[::-1]
+
+
+def _lines(function: Callable[..., Any]) -> list[_Line]:
+    """Return the lines of a calculation or part, those of its own parts in their place."""
+    scope, body, remarks = _scope(function), *_source(function)
+    lines: list[_Line] = []
+    for statement in body[:-1]:
+        remark = " ".join(
+            remarks[line]
+            for line in range(statement.lineno, (statement.end_lineno or 0) + 1)
+            if line in remarks
+        )
+        match statement:
+            case ast.Expr(value=ast.Constant()):  # the docstring
+                continue
+            case ast.Assign(targets=[ast.Name(id=name)], value=value):
+                lines.append(_Line(name, value, remark))
+            case ast.Assign(
+                targets=[ast.Tuple(elts=names)],
+                value=ast.Call(func=ast.Name(id=part), args=arguments),
+            ) if part in scope:
+                lines += _lines_of_part(scope[part], [ast.unparse(n) for n in names], arguments)
+            case _:
+                raise _unprintable(function.__name__, statement)
+    return lines
+
+
+def _lines_of_part(
+    part: Callable[..., Any], names: Sequence[str], arguments: Sequence[ast.expr]
+) -> list[_Line]:
+    """Return the lines of a part, under the names on the left of its call."""
+    match _source(part)[0][-1]:
+        case ast.Return(value=ast.Tuple(elts=returned)):
+            inside = [ast.unparse(node) for node in returned]
+        case other:
+            raise _unprintable(part.__name__, other)
+    lines = _lines(part)
+    if sorted(line.name for line in lines) != sorted(inside) or len(inside) != len(names):
+        raise CalculationError(f"{part.__name__} must return every symbol that it gives")
+    put = _bound(part, arguments) | {
+        own: ast.Name(name) for own, name in zip(inside, names, strict=True)
+    }
+    outside = dict(zip(inside, names, strict=True))
+    return [
+        _Line(outside[line.name], _Put(put).visit(_copy(line.expression)), line.remark)
+        for line in lines
+    ]
+
+
+class _Case(ast.NodeTransformer):
+    """Decides each `where` by the values, and puts formulas and constants in."""
+
+    def __init__(self, scope: Mapping[str, Any], values: Mapping[str, Any]) -> None:
+        self.scope, self.values = scope, values
+        self.conditions: list[Condition] = []
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        match node:
+            case ast.Call(func=ast.Name(id="where"), args=[condition, yes, no]):
+                holds = self._decide(condition)
+                return self.visit(yes if holds else no)  # type: ignore[no-any-return]
+            case ast.Call(func=ast.Name(id=name)) if name in _CALLS:
+                return self.generic_visit(node)  # type: ignore[return-value]
+            case ast.Call(func=ast.Name(id=name), args=arguments) if inspect.isfunction(
+                self.scope.get(name)
+            ):
+                formula = self.scope[name]
+                *_, last = body = _source(formula)[0]
+                if not isinstance(last, ast.Return) or last.value is None or len(body) > 2:
+                    raise _unprintable(f"the formula {name}", last)
+                put = _bound(formula, [self.visit(argument) for argument in arguments])
+                inner = _Case(_scope(formula), self.values)
+                expression = inner.visit(_Put(put).visit(_copy(last.value)))
+                self.conditions += [c for c in inner.conditions if c not in self.conditions]
+                return expression  # type: ignore[no-any-return]
+        raise _unprintable("the call", node)
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        if node.id not in self.values and isinstance(self.scope.get(node.id), int | float):
+            return node if node.id == "pi" else ast.Constant(self.scope[node.id])
+        return node
+
+    def _decide(self, condition: ast.expr) -> bool:
+        """Decide a condition, and note as little of it as decides."""
+        parts = _conjuncts(condition)
+        decided = [Condition(part, bool(self._value(part))) for part in parts]
+        holds = all(part.holds for part in decided)
+        noted = decided if holds else [part for part in decided if not part.holds][:1]
+        self.conditions += [part for part in noted if part not in self.conditions]
+        return holds
+
+    def _value(self, node: ast.expr) -> Any:
+        code = compile(ast.fix_missing_locations(ast.Expression(_copy(node))), "where", "eval")
+        return eval(code, dict(self.scope), dict(self.values))
+
+
+def _conjuncts(condition: ast.expr) -> list[ast.expr]:
+    if isinstance(condition, ast.BinOp) and isinstance(condition.op, ast.BitAnd):
+        return [*_conjuncts(condition.left), *_conjuncts(condition.right)]
+    return [condition]
+
+
+class _Put(ast.NodeTransformer):
+    """Puts expressions in for names."""
+
+    def __init__(self, expressions: Mapping[str, ast.expr]) -> None:
+        self.expressions = expressions
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        return self.expressions.get(node.id, node)
+
+
+class _Printer:
+    """Writes expressions in LaTeX, with brackets only where they are needed."""
+
+    def __init__(self, shown: Mapping[str, str], times: str) -> None:
+        self.shown, self.times = shown, times
+
+    def text(self, node: ast.expr, outer: int = _ALONE, flat: bool = False) -> str:
+        """Return an expression; `flat` is without fractions, as in an exponent."""
+
+        def within(inner: str, own: int) -> str:
+            pair = ("(", ")") if flat else (r"\left(", r"\right)")
+            return inner.join(pair) if own < outer else inner
+
+        match node:
+            case ast.Name(id="pi"):
+                return r"\pi"
+            case ast.Name(id=name):
+                return self._operand(self.shown[name], outer)
+            case ast.Constant(value=value):
+                return self._operand(f"{value:g}", outer)
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                return within(f"-{self.text(operand, _PRODUCT, flat)}", _ALONE)
+            case ast.BinOp(op=ast.Mult() | ast.Div()) if positive := _without_sign(node):
+                return self.text(ast.UnaryOp(ast.USub(), positive), outer, flat)
+            case ast.BinOp(left=a, op=ast.Add() | ast.Sub() as sign, right=b):
+                plus = isinstance(sign, ast.Add)
+                right = self.text(b, _SUM if plus else _PRODUCT, flat)
+                left = self.text(a, _ALONE, flat)
+                return within(f"{left} {'+' if plus else '-'} {right}", _SUM)
+            case ast.BinOp(left=a, op=ast.Mult(), right=b):
+                pair = self.text(a, _PRODUCT, flat), self.text(b, _PRODUCT, flat)
+                return within(f" {self.times} ".join(pair), _PRODUCT)
+            case ast.BinOp(left=a, op=ast.Div(), right=b) if flat or (
+                _plain(a) and _plain(b) and outer <= _SUM
+            ):
+                return within(
+                    f"{self.text(a, _PRODUCT, flat)} / {self.text(b, _POWER, flat)}", _PRODUCT
+                )
+            case ast.BinOp(left=a, op=ast.Div(), right=b):
+                return rf"\frac{{{self.text(a)}}}{{{self.text(b)}}}"
+            case ast.BinOp(left=a, op=ast.Pow(), right=b):
+                power = self.text(b, _ALONE, flat=True)
+                return f"{self.text(a, _POWER, flat)}^{{{power}}}"
+            case ast.Call(func=ast.Name(id=name), args=arguments) if name in _CALLS:
+                holes = _CALLS[name].count("%s")
+                tight = _POWER if holes > 1 else _ALONE
+                inner = tuple(self.text(a, tight, flat or name == "exp") for a in arguments)
+                found = _CALLS[name] % (inner if holes > 1 else ", ".join(inner))
+                return within(found, _PRODUCT if name == "mod" else _POWER)
+        raise _unprintable("the expression", node)
+
+    def _operand(self, text: str, outer: int) -> str:
+        """Return a symbol or a value; a sign, a unit or a power of ten may want brackets."""
+        own = _ALONE if text.startswith("-") else _POWER
+        if r"\times" in text or r"\text" in text:
+            own = min(own, _PRODUCT)
+        return f"({text})" if own < outer else text
+
+
+def _without_sign(node: ast.expr) -> ast.expr | None:
+    """Return a product without the minus that it begins with; None where there is none."""
+    match node:
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            return operand
+        case ast.BinOp(left=left, op=ast.Mult() | ast.Div() as op, right=right):
+            positive = _without_sign(left)
+            return ast.BinOp(positive, op, right) if positive else None
+    return None
+
+
+def _plain(node: ast.expr) -> bool:
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+        return _plain(node.left)
+    return isinstance(node, ast.Name | ast.Constant)
+
+
+def _bound(function: Callable[..., Any], arguments: Sequence[ast.expr]) -> dict[str, ast.expr]:
+    """Return the arguments of a call by the names of the parameters, defaults included."""
+    bound = inspect.signature(function).bind(*arguments)
+    given = dict(bound.arguments)
+    bound.apply_defaults()
+    return {
+        name: value if name in given else ast.Constant(value)
+        for name, value in bound.arguments.items()
+    }
+
+
+@cache
+def _source(function: Callable[..., Any]) -> tuple[list[ast.stmt], dict[int, str]]:
+    """Return the body of a function, and the comments behind its lines by number."""
+    source = textwrap.dedent(inspect.getsource(function))
+    definition = ast.parse(source).body[0]
+    assert isinstance(definition, ast.FunctionDef)
+    remarks = {
+        token.start[0]: token.string.lstrip("# ")
+        for token in tokenize.generate_tokens(io.StringIO(source).readline)
+        if token.type == tokenize.COMMENT and token.line.lstrip()[0] != "#"
+    }
+    remarks = {
+        line: text for line, text in remarks.items() if not text.startswith(("fmt:", "noqa"))
+    }
+    return definition.body, remarks
+
+
+def _scope(function: Callable[..., Any]) -> dict[str, Any]:
+    """Return what the names in a function stand for: its module's, and defaults that are parts."""
+    parameters = inspect.signature(function).parameters.values()
+    return function.__globals__ | {p.name: p.default for p in parameters if callable(p.default)}
+
+
+def _copy(node: Node) -> Node:
+    """Return a copy of a tree that can be changed."""
+    fields = {name: _copied(value) for name, value in ast.iter_fields(node)}
+    return ast.copy_location(type(node)(**fields), node)
+
+
+def _copied(value: Any) -> Any:
+    if isinstance(value, list):
+        return [_copied(item) for item in value]
+    return _copy(value) if isinstance(value, ast.AST) else value
+
+
+def _names(node: ast.AST) -> set[str]:
+    """Return the names of values in a tree: neither functions nor π."""
+    called = {part.func.id for part in ast.walk(node) if isinstance(part, ast.Call)}  # type: ignore[attr-defined]
+    names = {part.id for part in ast.walk(node) if isinstance(part, ast.Name)}
+    return names - called - {"pi"}
+
+
+def _unprintable(where: str, node: ast.AST) -> CalculationError:
+    return CalculationError(f"{where} has what a calculation cannot print: {ast.unparse(node)}")
