@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pierimpact.checks import InputError
+    from pierimpact.collision.parameters import Collision
     from pierimpact.collision.simulate import peak_reactions, simulate
     from pierimpact.design.reaction import design_reaction, design_reactions
     from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
@@ -19,6 +20,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "CircularSection",
+    "Collision",
     "CrushSpring",
     "EquivalentPier",
     "InputError",
@@ -41,6 +43,7 @@ __all__ = [
 # caller does not need.
 _HOMES = {
     "checks": ["InputError"],
+    "collision.parameters": ["Collision"],
     "collision.simulate": ["peak_reactions", "simulate"],
     "design.reaction": ["design_reaction", "design_reactions"],
     "design.spectra": ["cargo_spectrum", "engine_spectrum"],

@@ -218,19 +218,19 @@ def test_the_figures_follow_a_slider_with_the_packages_values(page):
     keys = webdriver.Keys
     before = page.pixels()
     assert len(before) == 5  # picture, forces, energy and two spectra
-    assert force(Scenario().strike.history.engine_peak.reaction) in page.readout()
+    assert force(Scenario().history.engine_peak.reaction) in page.readout()
     page.press(page.slider("Speed V"), keys.ARROW_LEFT, 10)
-    history = Scenario(speed=70.0 / 3.6).strike.history
+    history = Scenario(speed=70.0 / 3.6).history
     until(lambda: force(history.engine_peak.reaction) in page.readout())
     assert force(history.cargo_peak.reaction) in page.readout()
     until(lambda: all(old != new for old, new in zip(before, page.pixels(), strict=True)))
     page.press(page.slider("Speed V"), keys.ARROW_RIGHT, 10)
-    until(lambda: force(Scenario().strike.history.engine_peak.reaction) in page.readout())
+    until(lambda: force(Scenario().history.engine_peak.reaction) in page.readout())
 
 
 def test_the_animation_can_be_scrubbed_and_played(page):
     keys = webdriver.Keys
-    history = Scenario().strike.history
+    history = Scenario().history
 
     def shown(reaction):
         return lambda: f"R = {force(reaction)}." in page.readout()
@@ -306,6 +306,6 @@ def test_voila_serves_the_explorer_without_code(browser, tmp_path):
         assert not app.all(".jp-CodeCell .jp-InputArea-editor")
         assert not app.one(".pierimpact-still").is_displayed()
         app.type("Speed V", "70 km/h")
-        history = Scenario(speed=70.0 / 3.6).strike.history
+        history = Scenario(speed=70.0 / 3.6).history
         until(lambda: force(history.cargo_peak.reaction) in app.readout())
         app.holds_no_error()

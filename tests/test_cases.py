@@ -5,18 +5,22 @@ import pytest
 
 from pierimpact import EquivalentPier, InputError, load_truck
 from pierimpact.collision.groups import CHUNK
-from pierimpact.collision.parameters import collision, collisions
+from pierimpact.collision.parameters import Collision, parameter_chunks
 
 TRUCK = load_truck("single-unit-8t")
 
 
 def test_one_collision_is_the_numbers_of_truck_pier_and_speed():
     pier = EquivalentPier(mass=8e3, stiffness=284e6, damping_ratio=0.04)
-    case = collision(TRUCK, pier, 20.0)
-    assert tuple(case.engine) == pytest.approx((700.0, 150e3, 0.5, 150e6, 900e6))
-    assert tuple(case.body) == pytest.approx((7300.0, 500e3, 1.9, 10e6, 60e6))
-    assert (case.friction_force, case.on_pier, case.speed) == (21.5e3, False, 20.0)
-    assert case.pier_damping == 2.0 * 0.04 * math.sqrt(284e6 * 8e3)
+    parameters = Collision(TRUCK, pier, 20.0).parameters
+    assert tuple(parameters.engine) == pytest.approx((700.0, 150e3, 0.5, 150e6, 900e6))
+    assert tuple(parameters.body) == pytest.approx((7300.0, 500e3, 1.9, 10e6, 60e6))
+    assert (parameters.friction_force, parameters.on_pier, parameters.speed) == (
+        21.5e3,
+        False,
+        20.0,
+    )
+    assert parameters.pier_damping == 2.0 * 0.04 * math.sqrt(284e6 * 8e3)
 
 
 def test_many_collisions_keep_their_order_and_shape():
@@ -24,7 +28,7 @@ def test_many_collisions_keep_their_order_and_shape():
     count = 2 * CHUNK + 10
     trucks = [TRUCK.with_mass(mass) for mass in random.uniform(6e3, 20e3, count)]
     mass, damping = random.uniform(3e3, 1e5, (3, 1)), random.uniform(0.0, 0.1, count)
-    shape, parts = collisions(trucks, mass, 1e8, damping, 20.0)
+    shape, parts = parameter_chunks(trucks, mass, 1e8, damping, 20.0)
     assert shape == (3, count)
     parts = list(parts)
     assert [part.start for part, _ in parts] == list(range(0, 3 * count, CHUNK))
@@ -33,18 +37,18 @@ def test_many_collisions_keep_their_order_and_shape():
         "pier_damping": (2.0 * damping * np.sqrt(1e8 * mass)).ravel(),
         "body_mass": np.tile([truck.body_mass for truck in trucks], 3),
     }
-    for part, case in parts:
-        np.testing.assert_allclose(case.pier_mass, flat["pier_mass"][part], rtol=1e-15)
-        np.testing.assert_allclose(case.pier_damping, flat["pier_damping"][part], rtol=1e-14)
-        np.testing.assert_array_equal(case.body.mass, flat["body_mass"][part])
-        assert case.speed.shape == case.on_pier.shape == case.pier_mass.shape
+    for part, parameters in parts:
+        np.testing.assert_allclose(parameters.pier_mass, flat["pier_mass"][part], rtol=1e-15)
+        np.testing.assert_allclose(parameters.pier_damping, flat["pier_damping"][part], rtol=1e-14)
+        np.testing.assert_array_equal(parameters.body.mass, flat["body_mass"][part])
+        assert parameters.speed.shape == parameters.on_pier.shape == parameters.pier_mass.shape
 
 
 def test_scalars_and_empty_inputs():
-    shape, parts = collisions(TRUCK, 1e4, 1e8, 0.05, 20.0)
+    shape, parts = parameter_chunks(TRUCK, 1e4, 1e8, 0.05, 20.0)
     assert shape == ()
     assert len(list(parts)) == 1
-    shape, parts = collisions(TRUCK, [], 1e8, 0.05, 20.0)
+    shape, parts = parameter_chunks(TRUCK, [], 1e8, 0.05, 20.0)
     assert shape == (0,)
     assert list(parts) == []
 
@@ -59,4 +63,4 @@ def test_scalars_and_empty_inputs():
 )
 def test_what_is_no_truck(truck, message):
     with pytest.raises(InputError, match=f"^{message}$"):
-        collisions(truck, 1e4, 1e8, 0.05, 20.0)
+        parameter_chunks(truck, 1e4, 1e8, 0.05, 20.0)

@@ -18,8 +18,8 @@ from pierimpact import (
     peak_reactions,
     simulate,
 )
-from pierimpact.collision.groups import take
-from pierimpact.collision.parameters import collisions
+from pierimpact.collision.groups import select
+from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.design import domain, study
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reaction import MUCH_SMALLER, nominal_impact_height
@@ -103,13 +103,13 @@ def test_contacts_are_those_of_the_full_model(level, sample):
     differ = np.isnan(predicted.cargo) != np.isnan(exact.cargo)
     assert differ.mean() < 0.005
     # Where they differ, hardly any speed is left.
-    values = design_values(take(case, differ), level)
+    values = design_values(select(case, differ), level)
     assert (values["cargo_speed"] < 0.1 * case.speed[differ]).all()
 
 
 @pytest.mark.parametrize(("level", "largest"), [("refined", 0.01), ("hand", 0.06)])
 def test_approach_speeds(level, largest, sample):
-    case = take(sample[0], slice(0, 250))
+    case = select(sample[0], slice(0, 250))
     errors = study.speed_errors(case)[level]
     for body in ("engine", "cargo"):
         assert errors[body]["cases"] > 200
@@ -120,7 +120,7 @@ def test_approach_speeds(level, largest, sample):
 
 
 def test_speeds_at_contact_are_those_of_the_histories():
-    _, parts = collisions(TRUCK, PIER.mass, [284e6, 40e6], 0.05, [SPEED, 20.0])
+    _, parts = parameter_chunks(TRUCK, PIER.mass, [284e6, 40e6], 0.05, [SPEED, 20.0])
     ((_, case),) = parts
     engine, cargo = study.contact_speeds(case)
     for i, (stiffness, speed) in enumerate([(284e6, SPEED), (40e6, 20.0)]):

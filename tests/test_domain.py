@@ -4,16 +4,17 @@ import numpy as np
 import pytest
 
 from pierimpact import EquivalentPier, load_truck
-from pierimpact.collision.groups import take
-from pierimpact.collision.parameters import collision
+from pierimpact.collision.groups import select
+from pierimpact.collision.parameters import Collision
 from pierimpact.design import domain
 
 SIZE = 4000
 
 
 def test_the_truck_s_ranges_are_thirty_per_cent_about_the_reference():
-    case = collision(load_truck("single-unit-8t"), EquivalentPier(mass=1e4, stiffness=1e8), 20.0)
-    found = domain.values(case)
+    pier = EquivalentPier(mass=1e4, stiffness=1e8)
+    collision = Collision(load_truck("single-unit-8t"), pier, 20.0)
+    found = domain.values(collision.parameters)
     for name in domain.DOMAIN:
         if name.startswith(("engine", "body")):
             low, high = domain.bounds(name)
@@ -58,8 +59,8 @@ def test_samples_repeat_with_their_seed():
 def test_no_sample_warns_and_each_value_outside_does():
     case = domain.sample(40, 1)
     for i in range(40):
-        assert domain.warnings(take(case, i)) == ()
-    inside = take(case, 0)
+        assert domain.warnings(select(case, i)) == ()
+    inside = select(case, 0)
     for body, name in (("engine", "engine"), ("body", "body")):
         for field in ("plateau_force", "plateau_length", "stiffness", "unloading_stiffness"):
             title = f"{name} {field.replace('_', ' ')}"
@@ -77,8 +78,8 @@ def test_a_bound_met_but_for_round_off_is_met():
     pier = EquivalentPier(
         mass=3e3, stiffness=3e3 * (2.0 * math.pi * 150.0) ** 2, damping_ratio=0.07
     )
-    assert domain.warnings(collision(truck, pier, 110.0 / 3.6)) == ()
-    beyond = domain.warnings(collision(truck, pier, 110.1 / 3.6))
+    assert domain.warnings(Collision(truck, pier, 110.0 / 3.6).parameters) == ()
+    beyond = domain.warnings(Collision(truck, pier, 110.1 / 3.6).parameters)
     assert beyond == (
         "speed 110.1 km/h is outside the studied 50 to 110 km/h: the design formulas were not "
         "checked there",

@@ -27,8 +27,8 @@ USUAL = Scenario()
 SPEEDS = [20.0, 45.0, 80.0, 130.0]  # km/h: no contact, engine alone, both, both
 
 
-def strike(speed):
-    return Scenario(speed=speed / 3.6).strike
+def at_speed(speed):
+    return Scenario(speed=speed / 3.6)
 
 
 def words(axes):
@@ -37,7 +37,7 @@ def words(axes):
 
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_regimes_follow_the_contacts(speed):
-    history = strike(speed).history
+    history = at_speed(speed).history
     found = {regime.name: regime for regime in collision.regimes(history)}
     assert found["crumpling"].start == 0.0
     for name, start in (
@@ -54,7 +54,7 @@ def test_regimes_follow_the_contacts(speed):
 
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_forces_and_their_peaks(speed):
-    history = strike(speed).history
+    history = at_speed(speed).history
     axes = collision.forces_panel(Figure(figsize=(4, 3)))
     collision.draw_forces(axes, history)
     engine, body, reaction = (line.get_ydata() for line in axes.lines[:3])
@@ -75,7 +75,7 @@ def test_forces_and_their_peaks(speed):
 
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_the_shares_of_energy_fill_the_picture(speed):
-    history = strike(speed).history
+    history = at_speed(speed).history
     axes = collision.energy_panel(Figure(figsize=(4, 3)))
     collision.draw_energy(axes, history)
     tops = [area.get_paths()[0].vertices[:, 1].max() for area in axes.collections]
@@ -87,22 +87,22 @@ def test_the_shares_of_energy_fill_the_picture(speed):
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_a_spectrum_and_the_piers_place_on_it(body, speed):
-    pier = strike(speed)
-    curves = pier.curves
+    scenario = at_speed(speed)
+    curves = scenario.curves
     axes = spectrum.spectrum_panel(Figure(figsize=(4, 3)), body)
     given = curves.frequency, curves.full[body], curves.reduced[body]
     spectrum.draw_spectrum(axes, *given, body=body)
-    if body == "cargo" and pier.history.cargo_peak is None:
+    if body == "cargo" and scenario.history.cargo_peak is None:
         assert "does not reach" in words(axes)[0]
         reaction = None
     else:
-        peaks = {"engine": pier.history.engine_peak, "cargo": pier.history.cargo_peak}
+        peaks = {"engine": scenario.history.engine_peak, "cargo": scenario.history.cargo_peak}
         reaction = peaks[body].reaction
         assert np.array_equal(axes.lines[0].get_ydata(), 1e-6 * given[1], equal_nan=True)
         assert np.array_equal(axes.lines[1].get_ydata(), 1e-6 * given[2], equal_nan=True)
-    spectrum.draw_place(axes, *given, pier.pier.frequency, reaction, body=body)
+    spectrum.draw_place(axes, *given, scenario.pier.frequency, reaction, body=body)
     ring = axes.lines[-1]
-    assert ring.get_xdata()[0] == pier.pier.frequency
+    assert ring.get_xdata()[0] == scenario.pier.frequency
     if reaction is not None:
         assert ring.get_ydata()[0] == pytest.approx(1e-6 * reaction)
         assert axes.get_ylim()[1] > 1e-6 * max(reaction, np.nanmax(given[1]))
@@ -155,7 +155,7 @@ def test_stiffness_and_mass_along_a_column_are_those_of_the_impact():
 
 
 def test_bars_are_as_long_as_their_forces():
-    bars = theory.bars(strike(45.0))  # where the cargo makes no peak
+    bars = theory.bars(at_speed(45.0))  # where the cargo makes no peak
     axes = comparison.bars_panel(Figure(figsize=(6, 3)), [bar.name for bar in bars])
     comparison.draw_bars(axes, bars)
     assert [patch.get_width() for patch in axes.patches] == [
@@ -170,7 +170,7 @@ def test_bars_are_as_long_as_their_forces():
 
 @pytest.mark.parametrize("body", BODIES)
 def test_influences_to_either_side(body):
-    changes = theory.influences(USUAL.strike)[body]
+    changes = theory.influences(USUAL)[body]
     axes = influence.influence_panel(Figure(figsize=(4, 3)), "T", theory.PARAMETERS, 0.3)
     influence.draw_influence(axes, changes, body=body)
     widths = np.array([patch.get_width() for patch in axes.patches]).reshape(2, -1).T
@@ -179,7 +179,7 @@ def test_influences_to_either_side(body):
 
 
 def test_a_peak_that_is_not_there_has_no_influences():
-    changes = theory.influences(strike(45.0))
+    changes = theory.influences(at_speed(45.0))
     assert changes["cargo"] is None
     axes = influence.influence_panel(Figure(figsize=(4, 3)), "T", theory.PARAMETERS, 0.3)
     influence.draw_influence(axes, None, body="cargo")
@@ -187,14 +187,14 @@ def test_a_peak_that_is_not_there_has_no_influences():
 
 
 def test_influences_are_those_of_another_simulation():
-    changes = theory.influences(USUAL.strike)
+    changes = theory.influences(USUAL)
     heavier = Scenario(engine_mass=1.3 * USUAL.engine_mass)
     # The explorer's truck keeps its total mass, the influence its body's.
     heavier = Scenario(
         engine_mass=heavier.engine_mass, truck_mass=USUAL.truck_mass + 0.3 * USUAL.engine_mass
     )
     row = theory.PARAMETERS.index("Engine mass $m_1$")
-    ratio = heavier.strike.history.engine_peak.reaction / USUAL.strike.history.engine_peak.reaction
+    ratio = heavier.history.engine_peak.reaction / USUAL.history.engine_peak.reaction
     assert changes["engine"][row, 1] == pytest.approx(ratio - 1.0, rel=1e-6)
 
 
@@ -204,11 +204,11 @@ def test_influences_are_those_of_another_simulation():
     ids=["column", "oscillator", "tall"],
 )
 def test_the_picture_moves_with_the_pier(scenario):
-    animation = Animation(scenario.strike)
+    animation = Animation(scenario)
     axes = schematic.picture(Figure(figsize=(7.2, 2.9)))
     schematic.draw_scene(axes, animation.scene)
     before = len(axes.get_children())
-    peak = scenario.strike.history.engine_peak
+    peak = scenario.history.engine_peak
     frame = animation.frame(animation.index(peak.time))
     schematic.draw_frame(axes, animation.scene, frame)
     assert len(axes.get_children()) > before

@@ -31,7 +31,7 @@ def found():
     return sensitivity(TRUCK, COLUMN, PIER, HEIGHT, SPEED)
 
 
-def strike(name, value):
+def changed(name, value):
     """Return truck, pier and speed with one of them changed."""
     if name == "mass":
         return TRUCK.with_mass(value), PIER, SPEED
@@ -47,7 +47,7 @@ def strike(name, value):
 def test_each_value_is_that_of_a_calculation_of_its_own(found, name):
     variation = getattr(found, name)
     for index in range(0, len(variation.values), 7):
-        truck, pier, speed = strike(name, float(variation.values[index]))
+        truck, pier, speed = changed(name, float(variation.values[index]))
         history = simulate(truck, pier, speed)
         design = design_reaction(truck, pier, speed)
         assert variation.model[index] == pytest.approx(history.governing_peak.reaction, rel=1e-6)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pierimpact import peak_reactions
-from pierimpact.collision.groups import take
-from pierimpact.collision.parameters import collisions
+from pierimpact.collision.groups import select
+from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.design import domain, formulas, study
 from pierimpact.design.procedure import LEVELS
 from pierimpact.design.reduction import exact_amplification
@@ -76,7 +76,7 @@ def test_the_fit_s_error_is_the_file_s(outcome, spectrum):
 
 def test_the_first_cases_of_the_file_come_out_again(outcome):
     # The whole study takes long; a part of it must agree with the whole as a sample does.
-    case = take(domain.sample(study.SIZE, study.SEED), slice(0, 600))
+    case = select(domain.sample(study.SIZE, study.SEED), slice(0, 600))
     exact = study.full_model(case)
     for level in LEVELS:
         predicted = study.predictions(case, level)
@@ -91,7 +91,7 @@ def test_the_first_cases_of_the_file_come_out_again(outcome):
 
 
 def test_the_file_is_up_to_date(outcome):
-    case = take(domain.sample(study.SIZE, study.SEED), slice(0, study.SHOWN))
+    case = select(domain.sample(study.SIZE, study.SEED), slice(0, study.SHOWN))
     exact = study.full_model(case).governing
     for level in LEVELS:
         stated = outcome["governing of the first cases, predicted over CMSD"][level]
@@ -100,7 +100,7 @@ def test_the_file_is_up_to_date(outcome):
 
 
 def test_approach_speeds_of_the_file(outcome):
-    case = take(domain.sample(study.SIZE, study.SEED), slice(0, 60))
+    case = select(domain.sample(study.SIZE, study.SEED), slice(0, 60))
     found, stated = (
         study.speed_errors(case),
         outcome["error of the approach speed over the truck's"],
@@ -115,7 +115,7 @@ def test_approach_speeds_of_the_file(outcome):
 def test_the_full_model_is_peak_reactions():
     truck = load_truck("single-unit-8t")
     stiffness, speed = np.array([284e6, 50e6, 2e9]), np.array([22.2, 6.0, 28.0])
-    _, parts = collisions(truck, 8e3, stiffness, 0.05, speed)
+    _, parts = parameter_chunks(truck, 8e3, stiffness, 0.05, speed)
     ((_, case),) = parts
     found, expected = study.full_model(case), peak_reactions(truck, 8e3, stiffness, 0.05, speed)
     np.testing.assert_array_equal(found.engine, expected.engine)

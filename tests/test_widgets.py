@@ -77,8 +77,8 @@ def test_the_printed_peaks_are_those_of_the_model(full):
     speeds = np.random.default_rng(6).uniform(8.0, 30.0, 5)
     for speed in speeds:
         full.set(speed=float(speed))
-        strike = full.scenario().strike
-        history = simulate(strike.truck, strike.pier, float(speed))
+        scenario = full.scenario()
+        history = simulate(scenario.truck, scenario.pier, float(speed))
         shown = full.views["readout"].widget.value
         assert str(printed(history.engine_peak.reaction, "force", "SI")) in shown
         if history.cargo_peak is None:
@@ -88,7 +88,7 @@ def test_the_printed_peaks_are_those_of_the_model(full):
 
 
 def test_no_contact_is_said_in_a_sentence():
-    assert outcome(Scenario(speed=20.0 / 3.6).strike).startswith("Neither engine nor cargo")
+    assert outcome(Scenario(speed=20.0 / 3.6)).startswith("Neither engine nor cargo")
 
 
 def test_a_mechanism_is_refused_in_a_sentence_and_taken_back(full):
@@ -182,14 +182,14 @@ def test_dragging_redraws_once_and_with_the_newest_value():
         assert explorer.redraws == before + 1
 
     asyncio.run(drag())
-    history = Scenario(speed=89 / 3.6).strike.history
+    history = Scenario(speed=89 / 3.6).history
     shown = explorer.views["readout"].widget.value
     assert str(printed(history.engine_peak.reaction, "force", "SI")) in shown
 
 
 def test_the_picture_shows_the_instant_asked_for():
     explorer = widgets.collision()
-    history = explorer.strike.history
+    history = explorer.animation.scenario.history
     for moment, reaction in (
         (0.0, 0.0),
         (history.engine_peak.time, history.engine_peak.reaction),

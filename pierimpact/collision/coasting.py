@@ -8,10 +8,10 @@ passed in one step that ends safely before the first possible change of regime.
 import math
 from typing import NamedTuple
 
+from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import (
     FAR,
     PLATEAU,
-    Collision,
     Law,
     Position,
     State,
@@ -81,7 +81,7 @@ def _pushes(law: Law) -> tuple[Real, Real]:
     return -law.w1 * law.intercept1, -law.w2 * (law.intercept2 + law.friction)
 
 
-def undisturbed(case: Collision, state: State, law: Law, ring: Ringing, ops: Ops) -> Real:
+def undisturbed(parameters: Parameters, state: State, law: Law, ring: Ringing, ops: Ops) -> Real:
     """Return a time in which no regime can change, FAR where none ever will."""
     where, lib, at = ops.where, ops.lib, state.at
     # Whatever its phase, the pier stays within this reach of its rest, and below this speed.
@@ -104,19 +104,21 @@ def undisturbed(case: Collision, state: State, law: Law, ring: Ringing, ops: Ops
         bound = where(arrival < bound, arrival, bound)
         bound = where(lead < bound, lead, bound)
     # The friction of the road brings the body to rest.
-    stops = (law.friction != 0.0) & ops.negate(case.on_pier) & (v * a < 0.0)
+    stops = (law.friction != 0.0) & ops.negate(parameters.on_pier) & (v * a < 0.0)
     stop = where(stops, -v / where(stops, a, 1.0), FAR)
     return where(stop < bound, stop, bound)
 
 
-def coast(case: Collision, state: State, law: Law, ops: Ops) -> tuple[State, Real]:
+def coast(parameters: Parameters, state: State, law: Law, ops: Ops) -> tuple[State, Real]:
     """Return the state at the end of coasting, and its length: zero where there is none."""
     where, some = ops.where, ops.some
-    constant: Flag = (law.s1 == 0.0) & (law.s2 == 0.0) & ops.negate(state.stuck & case.on_pier)
+    constant: Flag = (
+        (law.s1 == 0.0) & (law.s2 == 0.0) & ops.negate(state.stuck & parameters.on_pier)
+    )
     if not some(constant):
         return state, 0.0
     ring = ringing(law, state.at, ops)
-    bound = undisturbed(case, state, law, ring, ops)
+    bound = undisturbed(parameters, state, law, ring, ops)
     # Where nothing ever changes, one period brings the highest peak.
     h = where(bound < FAR, SHORT * bound, 1.01 * 2.0 * math.pi / ring.omega)
     worthwhile = constant & (h * ring.omega > PHASE)

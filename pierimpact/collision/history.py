@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.collision.coasting import coasted, ringing
-from pierimpact.collision.regimes import Collision, Law, Position, State
+from pierimpact.collision.parameters import Collision
+from pierimpact.collision.regimes import Law, Position, State
 from pierimpact.collision.series import ARRAYS, FLOATS, TERMS
 from pierimpact.collision.stepping import expand, longest_step, motions
 from pierimpact.pier.equivalent import EquivalentPier
@@ -110,22 +111,27 @@ class CollisionHistory:
 
     Parameters
     ----------
-    truck, pier, speed
-        What was simulated.
-    case : Collision
-        The same as plain numbers.
+    collision : Collision
+        Truck, pier and speed.
     steps : list of (State, Law, float)
         Start, equations of motion, and length [s] of each step.
     end : State
         The last state.
     """
 
-    truck: Truck
-    pier: EquivalentPier
-    speed: float
-    case: Collision = field(repr=False)
+    collision: Collision
     steps: list[RecordedStep] = field(repr=False)
     end: State = field(repr=False)
+
+    @property
+    def truck(self) -> Truck:
+        """The truck."""
+        return self.collision.truck
+
+    @property
+    def pier(self) -> EquivalentPier:
+        """The pier."""
+        return self.collision.pier
 
     @property
     def engine_peak(self) -> Peak:
@@ -220,7 +226,7 @@ class CollisionHistory:
     def friction_force(self) -> Array:
         """Friction F_s against the body's motion, shape (n,) [N]."""
         # Where the body sticks the friction is what its motion asks for.
-        held_mass = self.case.body.mass if self.case.on_pier else 0.0
+        held_mass = self.truck.body_mass if self._friction_on_pier else 0.0
         held = -self.body_force - held_mass * self._flat(self._series(PIER, order=2))
         stuck = self._flat(self._column(lambda state, law: state.stuck) + 0.0 * FRACTIONS)
         return self._flat(self._sliding_friction + 0.0 * FRACTIONS) + stuck * held
@@ -229,7 +235,7 @@ class CollisionHistory:
     def contact_force(self) -> Array:
         """Force of the truck on the pier, F1 + F2 (+ F_s if friction acts on the pier) [N]."""
         force = self.engine_force + self.body_force
-        return force + self.friction_force if self.case.on_pier else force
+        return force + self.friction_force if self._friction_on_pier else force
 
     @cached_property
     def impulse(self) -> Array:
@@ -247,7 +253,7 @@ class CollisionHistory:
     @cached_property
     def energy(self) -> EnergyShares:
         """Where the truck's energy is at each time."""
-        case, truck = self.case, self.truck
+        truck = self.truck
         return EnergyShares(
             kinetic=0.5
             * (
@@ -258,8 +264,8 @@ class CollisionHistory:
             pier_elastic=0.5 * self.pier.stiffness * self.pier_displacement**2,
             truck_elastic=0.5
             * (
-                self.engine_force**2 / case.engine.unloading_stiffness
-                + self.body_force**2 / case.body.unloading_stiffness
+                self.engine_force**2 / truck.engine_spring.unloading_stiffness
+                + self.body_force**2 / truck.body_spring.unloading_stiffness
             ),
             crush=truck.engine_spring.dissipated(self._largest_crush(ENGINE))
             + truck.body_spring.dissipated(self._largest_crush(BODY)),
@@ -270,8 +276,8 @@ class CollisionHistory:
     @cached_property
     def energy_error(self) -> float:
         """Largest departure of the energy's sum from ½ (m1 + m2) V², relative [-]."""
-        given = 0.5 * self.truck.mass * self.speed**2
-        return float(np.max(np.abs(self.energy.total - given)) / given)
+        initial = self.collision.energy
+        return float(np.max(np.abs(self.energy.total - initial)) / initial)
 
     @cached_property
     def momentum_error(self) -> float:
@@ -280,10 +286,10 @@ class CollisionHistory:
         Momentum of truck and pier + ∫ (k_p x_p + c_p x_p' + road friction) dt = (m1 + m2) V.
         """
         truck = self.truck
-        given = truck.mass * self.speed
+        initial = truck.mass * self.collision.speed
         momentum = truck.engine_mass * self.engine_velocity + truck.body_mass * self.body_velocity
         impulse = self.impulse
-        if not self.case.on_pier:
+        if not self._friction_on_pier:
             # A body that sticks to the road is held by minus the force of its spring.
             stuck = self._column(lambda state, law: state.stuck)
             intercept = self._column(lambda state, law: state.body.intercept)
@@ -292,7 +298,11 @@ class CollisionHistory:
                 (self._sliding_friction - stuck * intercept) * self._lengths * FRACTIONS
                 - stuck * slope * self._series(BODY, order=-1)
             )
-        return float(np.max(np.abs(momentum + impulse - given)) / given)
+        return float(np.max(np.abs(momentum + impulse - initial)) / initial)
+
+    @property
+    def _friction_on_pier(self) -> bool:
+        return self.truck.friction_on == "pier"
 
     # The arrays below have one row a piece and one column a fraction of it.
 
@@ -360,7 +370,7 @@ class CollisionHistory:
         return self._flat(np.maximum(largest, springs[which].elastic_limit))
 
     def _friction_work(self) -> Array:
-        path = self._series(BODY) + (0.0 if self.case.on_pier else self._series(PIER))
+        path = self._series(BODY) + (0.0 if self._friction_on_pier else self._series(PIER))
         return self._accumulate(self._sliding_friction * (path - path[:, :1]))
 
     def _damping_work(self) -> Array:

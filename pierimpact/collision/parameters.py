@@ -1,66 +1,109 @@
-"""From trucks, piers and speeds to the plain numbers of the equations."""
+"""A truck strikes a pier: the collision as users give it, and the plain numbers of its equations.
+
+In `Parameters` and `Spring` each number is a float for one collision, or an array of shape (n,)
+for n collisions side by side.
+"""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import InputError, positive_array, ratio_array
-from pierimpact.collision.groups import CHUNK
-from pierimpact.collision.regimes import Collision, Spring
-from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.checks import InputError, positive, positive_array, ratio_array
+from pierimpact.collision.groups import CHUNK, select
+from pierimpact.collision.series import Flag, Real
+from pierimpact.pier.equivalent import EquivalentPier, damping_coefficient
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
 
 
-def collision(truck: Truck, pier: EquivalentPier, speed: float) -> Collision:
-    """Return one collision, in floats.
+class Spring(NamedTuple):
+    """A crush law (`pierimpact.vehicle.crush`) and the mass behind it."""
+
+    mass: Real
+    plateau_force: Real
+    plateau_length: Real
+    stiffness: Real
+    unloading_stiffness: Real
+
+
+class Parameters(NamedTuple):
+    """Truck, pier and speed as the numbers of the equations of motion, in SI units."""
+
+    engine: Spring
+    body: Spring
+    friction_force: Real
+    on_pier: Flag
+    pier_mass: Real
+    pier_stiffness: Real
+    pier_damping: Real
+    speed: Real
+
+
+@dataclass(frozen=True)
+class Collision:
+    """A truck that strikes a pier.
+
+    Parameters
+    ----------
+    truck : Truck
+        The truck.
+    pier : EquivalentPier
+        The pier.
+    speed : float
+        Speed of the truck at first touch [m/s].
 
     Raises
     ------
     InputError
-        When `truck` or `pier` is not what it should be.
+        When truck or pier is of another type, or the speed is not positive.
     """
-    if not isinstance(truck, Truck):
-        raise InputError(f"truck must be a Truck, got {type(truck).__name__}")
-    if not isinstance(pier, EquivalentPier):
-        raise InputError(f"pier must be an EquivalentPier, got {type(pier).__name__}")
-    return Collision(
-        engine=_spring(truck.engine_mass, truck.engine_spring),
-        body=_spring(truck.body_mass, truck.body_spring),
-        friction_force=truck.friction_force,
-        on_pier=truck.friction_on == "pier",
-        pier_mass=pier.mass,
-        pier_stiffness=pier.stiffness,
-        pier_damping=pier.damping,
-        speed=speed,
-    )
+
+    truck: Truck
+    pier: EquivalentPier
+    speed: float
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.truck, Truck):
+            raise InputError(f"truck must be a Truck, got {type(self.truck).__name__}")
+        if not isinstance(self.pier, EquivalentPier):
+            raise InputError(f"pier must be an EquivalentPier, got {type(self.pier).__name__}")
+        object.__setattr__(self, "speed", positive("speed", self.speed))
+
+    @property
+    def energy(self) -> float:
+        """Kinetic energy ½ (m1 + m2) V² of the truck at first touch [J]."""
+        return 0.5 * self.truck.mass * self.speed**2
+
+    @cached_property
+    def parameters(self) -> Parameters:
+        """The same as floats."""
+        truck, pier = self.truck, self.pier
+        return Parameters(
+            engine=_spring(truck.engine_mass, truck.engine_spring),
+            body=_spring(truck.body_mass, truck.body_spring),
+            friction_force=truck.friction_force,
+            on_pier=truck.friction_on == "pier",
+            pier_mass=pier.mass,
+            pier_stiffness=pier.stiffness,
+            pier_damping=pier.damping,
+            speed=self.speed,
+        )
 
 
-def collisions(
+def parameter_chunks(
     truck: Truck | Sequence[Truck],
     pier_mass: ArrayLike,
     pier_stiffness: ArrayLike,
     damping_ratio: ArrayLike,
     speed: ArrayLike,
-) -> tuple[tuple[int, ...], Iterator[tuple[slice, Collision]]]:
-    """Return the shape to which all broadcast, and the collisions of its flat order in chunks.
+) -> tuple[tuple[int, ...], Iterator[tuple[slice, Parameters]]]:
+    """Return the shape to which all broadcast, and the parameters of its flat order in chunks.
 
-    Parameters
-    ----------
-    truck : Truck or sequence of Truck
-        One truck for all, or one for each; a sequence of n broadcasts as shape (n,).
-    pier_mass, pier_stiffness : array_like
-        Equivalent mass [kg] and stiffness [N/m] of the piers.
-    damping_ratio : array_like
-        Fraction of critical damping, from 0 to below 1 [-].
-    speed : array_like
-        Speeds at first touch [m/s].
-
-    Raises
-    ------
-    InputError
-        When a value is out of range or the shapes do not broadcast.
+    Arguments and errors as in `peak_reactions`.
     """
     many = isinstance(truck, Sequence)
     trucks = list(truck) if isinstance(truck, Sequence) else [truck]
@@ -85,9 +128,15 @@ def collisions(
     return which.shape, _chunks(_table(trucks), which, arrays)
 
 
+def in_chunks(parameters: Parameters) -> Iterator[Parameters]:
+    """Return the parameters of many collisions in order, CHUNK at a time."""
+    for first in range(0, len(parameters.speed), CHUNK):
+        yield select(parameters, slice(first, first + CHUNK))
+
+
 def _chunks(
     table: NDArray[np.float64], which: NDArray[np.int_], arrays: Sequence[NDArray[np.float64]]
-) -> Iterator[tuple[slice, Collision]]:
+) -> Iterator[tuple[slice, Parameters]]:
     which = which.reshape(-1)
     mass, stiffness, ratio, speed = (array.reshape(-1) for array in arrays)
     for first in range(0, len(which), CHUNK):
@@ -95,21 +144,21 @@ def _chunks(
         columns = table[:, which[part]]
         yield (
             part,
-            Collision(
+            Parameters(
                 engine=Spring(*columns[0:5]),
                 body=Spring(*columns[5:10]),
                 friction_force=columns[10],
                 on_pier=columns[11] > 0.0,
                 pier_mass=mass[part],
                 pier_stiffness=stiffness[part],
-                pier_damping=2.0 * ratio[part] * np.sqrt(stiffness[part] * mass[part]),
+                pier_damping=damping_coefficient(mass[part], stiffness[part], ratio[part]),
                 speed=speed[part],
             ),
         )
 
 
 def _table(trucks: Sequence[Truck]) -> NDArray[np.float64]:
-    """Return one column of parameters a truck, in the order of the equations' structures."""
+    """Return one column a truck: both springs, friction force, and 1 for friction on the pier."""
     rows = [
         (
             *_spring(truck.engine_mass, truck.engine_spring),

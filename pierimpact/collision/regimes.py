@@ -11,6 +11,7 @@ and `ops` brings the functions that differ (`pierimpact.collision.series`).
 import math
 from typing import NamedTuple
 
+from pierimpact.collision.parameters import Parameters, Spring
 from pierimpact.collision.series import Flag, Ops, Real
 
 FREE, ELASTIC, PLATEAU, STEEP = range(4)
@@ -22,29 +23,6 @@ NONE = -1
 
 FAR = 1e9  # stands for a bound that is never reached, without the NaN of ∞ − ∞
 SAME = 1e-13  # a later swing to the same height, but for so much of it, is no new peak
-
-
-class Spring(NamedTuple):
-    """A crush law (`pierimpact.vehicle.crush`) and the mass behind it."""
-
-    mass: Real
-    plateau_force: Real
-    plateau_length: Real
-    stiffness: Real
-    unloading_stiffness: Real
-
-
-class Collision(NamedTuple):
-    """What is given: truck, pier and speed."""
-
-    engine: Spring
-    body: Spring
-    friction_force: Real
-    on_pier: Flag
-    pier_mass: Real
-    pier_stiffness: Real
-    pier_damping: Real
-    speed: Real
 
 
 class Branch(NamedTuple):
@@ -131,16 +109,16 @@ def branch(spring: Spring, regime: Real, largest: Real, ops: Ops) -> Branch:
     )
 
 
-def start(case: Collision, ops: Ops) -> State:
+def start(parameters: Parameters, ops: Ops) -> State:
     """Return the state at first touch: both springs at rest, both bodies at full speed."""
-    nought = 0.0 * case.speed
+    nought = 0.0 * parameters.speed
     unknown = nought + math.nan
     first = ELASTIC + nought
     return State(
         time=nought,
-        at=Position(nought, case.speed, nought, case.speed, nought, nought),
-        engine=branch(case.engine, first, _elastic_limit(case.engine), ops),
-        body=branch(case.body, first, _elastic_limit(case.body), ops),
+        at=Position(nought, parameters.speed, nought, parameters.speed, nought, nought),
+        engine=branch(parameters.engine, first, _elastic_limit(parameters.engine), ops),
+        body=branch(parameters.body, first, _elastic_limit(parameters.body), ops),
         slip=1.0 + nought,
         stuck=nought != 0.0,
         changed=nought,
@@ -157,24 +135,28 @@ def _elastic_limit(spring: Spring) -> Real:
     return spring.plateau_force / spring.unloading_stiffness
 
 
-def linearise(case: Collision, state: State, ops: Ops) -> Law:
+def linearise(parameters: Parameters, state: State, ops: Ops) -> Law:
     """Return the equations of motion of the state's regime."""
     where = ops.where
-    stuck_to_pier = state.stuck & case.on_pier
-    wp = where(stuck_to_pier, 1.0 / (case.pier_mass + case.body.mass), 1.0 / case.pier_mass)
+    stuck_to_pier = state.stuck & parameters.on_pier
+    wp = where(
+        stuck_to_pier,
+        1.0 / (parameters.pier_mass + parameters.body.mass),
+        1.0 / parameters.pier_mass,
+    )
     return Law(
-        w1=1.0 / case.engine.mass,
-        w2=where(state.stuck, 0.0, 1.0 / case.body.mass),
+        w1=1.0 / parameters.engine.mass,
+        w2=where(state.stuck, 0.0, 1.0 / parameters.body.mass),
         wp=wp,
         gamma=where(stuck_to_pier, 0.0, 1.0),
-        b=wp * case.pier_stiffness,
-        c=wp * case.pier_damping,
+        b=wp * parameters.pier_stiffness,
+        c=wp * parameters.pier_damping,
         s1=state.engine.slope,
         s2=state.body.slope,
         intercept1=state.engine.intercept,
         intercept2=state.body.intercept,
-        friction=state.slip * case.friction_force,
-        on_pier=case.on_pier,
+        friction=state.slip * parameters.friction_force,
+        on_pier=parameters.on_pier,
     )
 
 
@@ -203,16 +185,16 @@ def raise_peak(state: State, xp: Real, time: Real, counts: Flag, ops: Ops) -> St
     )
 
 
-def change_regime(case: Collision, state: State, law: Law, event: Real, ops: Ops) -> State:
+def change_regime(parameters: Parameters, state: State, law: Law, event: Real, ops: Ops) -> State:
     """Return the state once `event` has ended the regime of `law`."""
     where = ops.where
     changes = event != NONE
     if not ops.some(changes):
         return state
     at, time = state.at, state.time
-    engine = change(case.engine, state.engine, event, at.d1, ops)
-    body = change(case.body, state.body, event - 3, at.d2, ops)
-    slip, stuck, u2 = rub(case, law, state, body, event, ops)
+    engine = change(parameters.engine, state.engine, event, at.d1, ops)
+    body = change(parameters.body, state.body, event - 3, at.d2, ops)
+    slip, stuck, u2 = rub(parameters, law, state, body, event, ops)
     meets_engine = (engine.regime == STEEP) & (state.engine_contact != state.engine_contact)
     meets_cargo = (body.regime == STEEP) & (state.cargo_contact != state.cargo_contact)
     return state._replace(
@@ -242,19 +224,19 @@ def change(spring: Spring, line: Branch, event: Real, crush: Real, ops: Ops) -> 
 
 
 def rub(
-    case: Collision, law: Law, state: State, body: Branch, event: Real, ops: Ops
+    parameters: Parameters, law: Law, state: State, body: Branch, event: Real, ops: Ops
 ) -> tuple[Real, Flag, Real]:
     """Return the friction's direction, whether it sticks, and the rate of δ2, after `event`."""
     at = state.at
     where, negate = ops.where, ops.negate
     # While it slides on the road, the springs do not concern it.
-    if not ops.some((event >= FORWARD) | state.stuck | case.on_pier):
+    if not ops.some((event >= FORWARD) | state.stuck | parameters.on_pier):
         return state.slip, state.stuck, at.u2
-    cs, m2 = case.friction_force, case.body.mass
+    cs, m2 = parameters.friction_force, parameters.body.mass
     F1 = law.intercept1 + law.s1 * at.d1
     F2 = law.intercept2 + law.s2 * at.d2
-    together = F1 - case.pier_stiffness * at.xp - case.pier_damping * at.vp
-    hold = -F2 - where(case.on_pier, m2 / (m2 + case.pier_mass), 0.0) * together
+    together = F1 - parameters.pier_stiffness * at.xp - parameters.pier_damping * at.vp
+    hold = -F2 - where(parameters.on_pier, m2 / (m2 + parameters.pier_mass), 0.0) * together
 
     ends = (event == FORWARD) & negate(state.stuck)
     sticks = ends & (hold <= cs) & (hold >= -cs)
@@ -264,9 +246,9 @@ def rub(
     slip = where(forward, 1.0, where(backward, -1.0, where(stuck, 0.0, state.slip)))
 
     # Friction on the pier acts while spring 2 is in contact, and begins anew with the contact.
-    apart = case.on_pier & (body.regime == FREE)
-    anew = case.on_pier & (state.body.regime == FREE) & (body.regime != FREE)
+    apart = parameters.on_pier & (body.regime == FREE)
+    anew = parameters.on_pier & (state.body.regime == FREE) & (body.regime != FREE)
     slip = where(apart, 0.0, where(anew, 1.0, slip))
     stuck = stuck & negate(apart)
-    rest = where(case.on_pier, 0.0, -at.vp)
+    rest = where(parameters.on_pier, 0.0, -at.vp)
     return slip, stuck, where(stuck, rest, at.u2)

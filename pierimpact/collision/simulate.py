@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import not_negative, positive
+from pierimpact.checks import not_negative
 from pierimpact.collision.history import CollisionHistory, RecordedStep
-from pierimpact.collision.parameters import collision, collisions
+from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.collision.regimes import Law, State
 from pierimpact.collision.stepping import follow, follow_all
 from pierimpact.pier.equivalent import EquivalentPier
@@ -43,18 +43,18 @@ def simulate(
     Raises
     ------
     InputError
-        When the speed is not positive or the duration is negative.
+        When the speed is not positive, the duration is negative, or `truck` or `pier` is of
+        another type.
     """
-    speed, duration = positive("speed", speed), not_negative("duration", duration)
-    case = collision(truck, pier, speed)
+    collision, duration = Collision(truck, pier, speed), not_negative("duration", duration)
     steps: list[RecordedStep] = []
 
     def record(state: State, law: Law, length: float) -> None:
         if length > SHORTEST:
             steps.append((state, law, length))
 
-    end = follow(case, duration, record)
-    return CollisionHistory(truck=truck, pier=pier, speed=speed, case=case, steps=steps, end=end)
+    end = follow(collision.parameters, duration, record)
+    return CollisionHistory(collision=collision, steps=steps, end=end)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,9 +121,9 @@ def peak_reactions(
     InputError
         When a value is out of range or the shapes do not broadcast.
     """
-    shape, parts = collisions(truck, pier_mass, pier_stiffness, damping_ratio, speed)
-    cases = (case for _, case in parts)
-    outcomes = follow_all(cases, math.prod(shape), progress=progress)
+    shape, chunks = parameter_chunks(truck, pier_mass, pier_stiffness, damping_ratio, speed)
+    parts = (parameters for _, parameters in chunks)
+    outcomes = follow_all(parts, math.prod(shape), progress=progress)
     engine_contact, cargo_contact, engine, engine_time, cargo, cargo_time = (
         outcome.reshape(shape) for outcome in outcomes
     )

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.collision.coasting import coast
-from pierimpact.collision.groups import CHUNK, join, take
+from pierimpact.collision.groups import CHUNK, join, select
+from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import (
     BACKWARD,
     ELASTIC,
@@ -25,7 +26,6 @@ from pierimpact.collision.regimes import (
     PLATEAU,
     TURN,
     UPPER,
-    Collision,
     Law,
     Position,
     State,
@@ -106,12 +106,15 @@ def longest_step(law: Law, ops: Ops) -> Real:
     return PHASE / ops.lib.sqrt(square)
 
 
-def watch(case: Collision, state: State, law: Law, ops: Ops) -> list[Watched]:
+def watch(parameters: Parameters, state: State, law: Law, ops: Ops) -> list[Watched]:
     """Return the quantities that end the regime when they rise above zero [-]."""
     where, some, negate = ops.where, ops.some, ops.negate
     watched = []
-    per_speed = 1.0 / case.speed
-    for which, spring, line in ((ENGINE, case.engine, state.engine), (BODY, case.body, state.body)):
+    per_speed = 1.0 / parameters.speed
+    for which, spring, line in (
+        (ENGINE, parameters.engine, state.engine),
+        (BODY, parameters.body, state.body),
+    ):
         first, per_length = 3 * which, 1.0 / spring.plateau_length
         loading = line.regime >= PLATEAU
         if some(line.upper < FAR):
@@ -125,22 +128,22 @@ def watch(case: Collision, state: State, law: Law, ops: Ops) -> list[Watched]:
             watched.append(Watched(first + TURN, 1, ((-per_speed, which),), level))
 
     # Sliding ends where the relative velocity would reverse.
-    acts = case.friction_force > 0.0
+    acts = parameters.friction_force > 0.0
     slides = acts & (state.slip != 0.0)
     if some(slides):
         level, back = where(slides, -TOLERANCE, -FAR), -state.slip * per_speed
-        parts = ((back, BODY), (where(case.on_pier, 0.0, back), PIER))
+        parts = ((back, BODY), (where(parameters.on_pier, 0.0, back), PIER))
         watched.append(Watched(FORWARD, 1, parts, level))
 
     # Sticking ends where the force that holds the body exceeds c_s, forward or backward. Against
     # the pier it is F2 + m2 x_p'' with F2 constant.
     if some(state.stuck):
-        scale = HOLD / where(acts, case.friction_force, 1.0)
-        slope, inertia = scale * law.s2, scale * case.body.mass
-        force = scale * law.intercept2 + where(case.on_pier, slope * state.at.d2, 0.0)
+        scale = HOLD / where(acts, parameters.friction_force, 1.0)
+        slope, inertia = scale * law.s2, scale * parameters.body.mass
+        force = scale * law.intercept2 + where(parameters.on_pier, slope * state.at.d2, 0.0)
         for stuck, order, weight, which in (
-            (state.stuck & negate(case.on_pier), 0, slope, BODY),
-            (state.stuck & case.on_pier, 2, inertia, PIER),
+            (state.stuck & negate(parameters.on_pier), 0, slope, BODY),
+            (state.stuck & parameters.on_pier, 2, inertia, PIER),
         ):
             level = where(acts & stuck, -HOLD - TOLERANCE, -FAR)
             watched.append(Watched(FORWARD, order, ((-weight, which),), level - force))
@@ -189,10 +192,10 @@ def may_rise(
     return flagged
 
 
-def move(case: Collision, state: State, law: Law, ops: Ops) -> tuple[State, Real]:
+def move(parameters: Parameters, state: State, law: Law, ops: Ops) -> tuple[State, Real]:
     """Return the state after one step, at most up to the first change, and the step's length."""
     where = ops.where
-    watched, moving = watch(case, state, law, ops), motions(law, state.at)
+    watched, moving = watch(parameters, state, law, ops), motions(law, state.at)
     longest = longest_step(law, ops)
     h = trial_step(longest, moving, watched, ops)
     count = terms_needed(ops.largest(h / longest))
@@ -223,10 +226,10 @@ def move(case: Collision, state: State, law: Law, ops: Ops) -> tuple[State, Real
     length = theta * h
     state = state._replace(time=state.time + length, at=evaluate(series, h, theta, ops))
     state = raise_peak(state, state.at.xp, state.time, True, ops)
-    return change_regime(case, state, law, event, ops), length
+    return change_regime(parameters, state, law, event, ops), length
 
 
-def finished(case: Collision, state: State, ops: Ops) -> Flag:
+def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
     """Say whether no later instant can raise a peak or bring a first contact.
 
     Either the energy that can still reach the pier does not suffice, or both bodies are out of
@@ -237,13 +240,15 @@ def finished(case: Collision, state: State, ops: Ops) -> Flag:
     where = ops.where
     at = state.at
     v1, v2 = at.u1 + at.vp, at.u2 + at.vp
-    energy = 0.5 * (case.pier_stiffness * at.xp**2 + case.pier_mass * at.vp**2)
-    energy = energy + where(v1 > 0.0, 0.5 * case.engine.mass * v1**2, 0.0)
-    energy = energy + where((v2 > 0.0) | case.on_pier, 0.5 * case.body.mass * v2**2, 0.0)
+    energy = 0.5 * (parameters.pier_stiffness * at.xp**2 + parameters.pier_mass * at.vp**2)
+    energy = energy + where(v1 > 0.0, 0.5 * parameters.engine.mass * v1**2, 0.0)
+    energy = energy + where(
+        (v2 > 0.0) | parameters.on_pier, 0.5 * parameters.body.mass * v2**2, 0.0
+    )
     no_contact: Flag = True
     for spring, line, d, contact in (
-        (case.engine, state.engine, at.d1, state.engine_contact),
-        (case.body, state.body, at.d2, state.cargo_contact),
+        (parameters.engine, state.engine, at.d1, state.engine_contact),
+        (parameters.body, state.body, at.d2, state.cargo_contact),
     ):
         force = line.intercept + line.slope * d
         energy = energy + 0.5 * force**2 / spring.unloading_stiffness
@@ -253,10 +258,10 @@ def finished(case: Collision, state: State, ops: Ops) -> Flag:
     met = state.cargo_contact == state.cargo_contact
     highest = where(met, state.cargo_peak, state.engine_peak)
     highest = where(highest > 0.0, highest, 0.0)
-    spent = 2.0 * energy <= case.pier_stiffness * highest**2 * (1.0 + 1e-9)
+    spent = 2.0 * energy <= parameters.pier_stiffness * highest**2 * (1.0 + 1e-9)
 
-    swinging = case.pier_mass + where(case.on_pier, case.body.mass, 0.0)
-    period = 2.0 * math.pi * ops.lib.sqrt(swinging / case.pier_stiffness)
+    swinging = parameters.pier_mass + where(parameters.on_pier, parameters.body.mass, 0.0)
+    period = 2.0 * math.pi * ops.lib.sqrt(swinging / parameters.pier_stiffness)
     left_engine = (state.engine.regime == FREE) & (v1 <= 0.0)
     left_body = ((state.body.regime == FREE) & (v2 <= 0.0)) | state.stuck
     swung = left_engine & left_body & (state.time > state.changed + period)
@@ -264,7 +269,7 @@ def finished(case: Collision, state: State, ops: Ops) -> Flag:
 
 
 def follow(
-    case: Collision,
+    parameters: Parameters,
     duration: float = 0.0,
     record: Callable[[State, Law, float], None] = lambda state, law, h: None,
 ) -> State:
@@ -272,7 +277,7 @@ def follow(
 
     Parameters
     ----------
-    case : Collision
+    parameters : Parameters
         Floats.
     duration : float, optional
         Time to propagate at least [s].
@@ -289,14 +294,14 @@ def follow(
     RuntimeError
         When the collision does not come to an end.
     """
-    state = start(case, FLOATS)
+    state = start(parameters, FLOATS)
     for _ in range(STEPS):
-        law = linearise(case, state, FLOATS)
-        new, h = coast(case, state, law, FLOATS)
+        law = linearise(parameters, state, FLOATS)
+        new, h = coast(parameters, state, law, FLOATS)
         record(state, law, h)
-        state, h = move(case, new, law, FLOATS)
+        state, h = move(parameters, new, law, FLOATS)
         record(new, law, h)
-        if state.time >= duration and finished(case, state, FLOATS):
+        if state.time >= duration and finished(parameters, state, FLOATS):
             return state
     raise RuntimeError("the collision did not come to an end")
 
@@ -314,16 +319,16 @@ OUTCOMES = (
 class Running(NamedTuple):
     """Collisions under way, side by side."""
 
-    case: Collision
+    parameters: Parameters
     state: State
     place: NDArray[np.int_]  # among the outcomes
     steps: NDArray[np.int_]  # taken so far
 
 
 def follow_all(
-    parts: Iterable[Collision],
+    parts: Iterable[Parameters],
     size: int,
-    begin: Callable[[Collision, Ops], State] = start,
+    begin: Callable[[Parameters, Ops], State] = start,
     progress: Callable[[int], object] = lambda count: None,
 ) -> NDArray[np.float64]:
     """Propagate collisions side by side until nothing more can happen in any.
@@ -333,7 +338,7 @@ def follow_all(
 
     Parameters
     ----------
-    parts : iterable of Collision
+    parts : iterable of Parameters
         Some collisions at a time; arrays of shape (m,).
     size : int
         Number n of the collisions in all parts.
@@ -356,20 +361,20 @@ def follow_all(
     waiting = _started(parts, begin)
     running = next(waiting, None)
     while running:
-        case, state, place, steps = running
+        parameters, state, place, steps = running
         done = np.zeros(len(place), dtype=bool)
         # Taking cases out costs about as much as a step: wait until a fifth of them is done.
         while 5 * np.count_nonzero(done) <= len(done) and not done.all():
-            law = linearise(case, state, ARRAYS)
-            state, _h = coast(case, state, law, ARRAYS)
-            state, _h = move(case, state, law, ARRAYS)
-            done |= finished(case, state, ARRAYS)
+            law = linearise(parameters, state, ARRAYS)
+            state, _h = coast(parameters, state, law, ARRAYS)
+            state, _h = move(parameters, state, law, ARRAYS)
+            done |= finished(parameters, state, ARRAYS)
             steps = steps + 1
             if steps.max() > STEPS:
                 raise RuntimeError("a collision did not come to an end")
         outcomes[:, place[done]] = [getattr(state, name)[done] for name in OUTCOMES]
         progress(int(np.count_nonzero(done)))
-        running = take(Running(case, state, place, steps), ~done)
+        running = select(Running(parameters, state, place, steps), ~done)
         if 2 * len(running.place) < CHUNK:
             more = next(waiting, None)
             running = join(running, more) if more else running
@@ -379,10 +384,10 @@ def follow_all(
 
 
 def _started(
-    parts: Iterable[Collision], begin: Callable[[Collision, Ops], State]
+    parts: Iterable[Parameters], begin: Callable[[Parameters, Ops], State]
 ) -> Iterator[Running]:
     first = 0
-    for case in parts:
-        place = np.arange(first, first + len(case.speed))
+    for parameters in parts:
+        place = np.arange(first, first + len(parameters.speed))
         first += len(place)
-        yield Running(case, begin(case, ARRAYS), place, 0 * place)
+        yield Running(parameters, begin(parameters, ARRAYS), place, 0 * place)

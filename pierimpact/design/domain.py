@@ -1,12 +1,16 @@
 """The domain in which the design formulas were studied."""
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.collision.regimes import Collision, Spring
+from pierimpact.collision.parameters import Parameters, Spring
+from pierimpact.pier.equivalent import (
+    damping_coefficient,
+    natural_frequency,
+    stiffness_at_frequency,
+)
 
 Array = NDArray[np.float64]
 
@@ -49,19 +53,20 @@ def bounds(name: str) -> tuple[float, float]:
     return low * size, high * size
 
 
-def values(case: Collision) -> dict[str, Any]:
+def values(parameters: Parameters) -> dict[str, Any]:
     """Return what DOMAIN bounds, of a collision or of many."""
     found = {
-        "truck mass": case.engine.mass + case.body.mass,
-        "speed": case.speed,
-        "pier frequency": np.sqrt(case.pier_stiffness / case.pier_mass) / (2.0 * math.pi),
-        "pier mass": case.pier_mass,
-        "pier stiffness": case.pier_stiffness,
-        "damping ratio": case.pier_damping / (2.0 * np.sqrt(case.pier_stiffness * case.pier_mass)),
-        "engine mass": case.engine.mass,
-        "friction force": case.friction_force,
+        "truck mass": parameters.engine.mass + parameters.body.mass,
+        "speed": parameters.speed,
+        "pier frequency": natural_frequency(parameters.pier_mass, parameters.pier_stiffness),
+        "pier mass": parameters.pier_mass,
+        "pier stiffness": parameters.pier_stiffness,
+        "damping ratio": parameters.pier_damping
+        / (2.0 * np.sqrt(parameters.pier_stiffness * parameters.pier_mass)),
+        "engine mass": parameters.engine.mass,
+        "friction force": parameters.friction_force,
     }
-    for body, spring in (("engine", case.engine), ("body", case.body)):
+    for body, spring in (("engine", parameters.engine), ("body", parameters.body)):
         for name, value in zip(SPRING, spring[1:], strict=True):
             found[f"{body} {name}"] = value
     return found
@@ -76,9 +81,9 @@ class Outside(NamedTuple):
     high: float
 
 
-def outside(case: Collision) -> tuple[Outside, ...]:
+def outside(parameters: Parameters) -> tuple[Outside, ...]:
     """Return the values of one collision that are outside the studied domain."""
-    found = values(case)
+    found = values(parameters)
     # A bound met but for round-off is met.
     return tuple(
         Outside(name, float(found[name]), low, high)
@@ -87,17 +92,17 @@ def outside(case: Collision) -> tuple[Outside, ...]:
     )
 
 
-def warnings(case: Collision) -> tuple[str, ...]:
+def warnings(parameters: Parameters) -> tuple[str, ...]:
     """Return a sentence for each value of one collision that is outside the studied domain."""
     return tuple(
         f"{name} {value / DOMAIN[name].size:.4g} {DOMAIN[name].unit} is outside the studied "
         f"{DOMAIN[name].low:g} to {DOMAIN[name].high:g} {DOMAIN[name].unit}: the design formulas "
         "were not checked there"
-        for name, value, _, _ in outside(case)
+        for name, value, _, _ in outside(parameters)
     )
 
 
-def sample(size: int, seed: int) -> Collision:
+def sample(size: int, seed: int) -> Parameters:
     """Return random collisions of the domain, as arrays of shape (size,).
 
     Pier frequency and mass are uniform in their logarithms, where the stiffness allows; all else
@@ -120,13 +125,13 @@ def sample(size: int, seed: int) -> Collision:
     while len(mass) < size:
         low, high = np.log([bounds("pier frequency"), bounds("pier mass")]).T
         frequency, trial = np.exp(random.uniform(low, high, (size, 2))).T
-        stiff = trial * (2.0 * math.pi * frequency) ** 2
+        stiff = stiffness_at_frequency(trial, frequency)
         softest, stiffest = bounds("pier stiffness")
         keep = (stiff >= softest) & (stiff <= stiffest)
         mass, stiffness = np.append(mass, trial[keep]), np.append(stiffness, stiff[keep])
     mass, stiffness = mass[:size], stiffness[:size]
     engine_mass = uniform("engine mass")
-    return Collision(
+    return Parameters(
         engine=Spring(engine_mass, *(uniform(f"engine {name}") for name in SPRING)),
         body=Spring(
             uniform("truck mass") - engine_mass, *(uniform(f"body {name}") for name in SPRING)
@@ -135,6 +140,6 @@ def sample(size: int, seed: int) -> Collision:
         on_pier=random.uniform(size=size) < 0.5,
         pier_mass=mass,
         pier_stiffness=stiffness,
-        pier_damping=2.0 * uniform("damping ratio") * np.sqrt(stiffness * mass),
+        pier_damping=damping_coefficient(mass, stiffness, uniform("damping ratio")),
         speed=uniform("speed"),
     )

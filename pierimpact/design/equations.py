@@ -8,7 +8,7 @@ printed before it and it is the calculation. A product of them is written with `
 import re
 from typing import NamedTuple
 
-from pierimpact.collision.regimes import Collision
+from pierimpact.collision.parameters import Parameters
 from pierimpact.design import cargo_equations, engine_equations
 from pierimpact.design.terms import Equation
 
@@ -61,7 +61,7 @@ def equations(values: dict[str, float], level: str, on_pier: bool) -> dict[str, 
     return table | cargo_equations.cargo_modes() if values["cargo_speed"] > 0.0 else table
 
 
-def given(case: Collision, damping_ratio: float) -> tuple[DesignStep, ...]:
+def given(case: Parameters, damping_ratio: float) -> tuple[DesignStep, ...]:
     """Return what the procedure starts from: truck, pier and speed."""
     numbers = (
         case.speed,

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from pierimpact.collision.regimes import Collision, Spring
+from pierimpact.collision.parameters import Parameters, Spring
 from pierimpact.design.formulas import (
     RINGING_BETA,
     RINGING_SHARE,
@@ -35,12 +35,12 @@ Spectrum: TypeAlias = Callable[[Real, Real, Real, Real], Real]
 LEVELS = ("refined", "hand")
 
 
-def design_values(case: Collision, level: str, spectrum: Spectrum | None = None) -> Values:
+def design_values(case: Parameters, level: str, spectrum: Spectrum | None = None) -> Values:
     """Return every value of the procedure by name, in order.
 
     Parameters
     ----------
-    case : Collision
+    case : Parameters
         Floats, or arrays of one shape.
     level : {"refined", "hand"}
         Level of the formulas.
@@ -65,7 +65,7 @@ def design_values(case: Collision, level: str, spectrum: Spectrum | None = None)
     return values | _cargo_modes(case, values)
 
 
-def _plateau(case: Collision) -> Values:
+def _plateau(case: Parameters) -> Values:
     """Return what the pier is, and how the plateau forces push it."""
     omega = np.sqrt(case.pier_stiffness / case.pier_mass)
     zeta = case.pier_damping / (2.0 * np.sqrt(case.pier_stiffness * case.pier_mass))
@@ -85,14 +85,14 @@ def _plateau(case: Collision) -> Values:
     }
 
 
-def _pushed(case: Collision, values: Values, t: Real) -> Motion:
+def _pushed(case: Parameters, values: Values, t: Real) -> Motion:
     """Return the pier's response to the plateau forces, applied at t = 0."""
     rest = values["plateau_push"] / case.pier_stiffness
     x, v = swing(Motion(-rest, 0.0), values["omega"], values["zeta"], t)
     return Motion(x + rest, v)
 
 
-def _engine_contact(case: Collision, values: Values, pier_moves: bool) -> Values:
+def _engine_contact(case: Parameters, values: Values, pier_moves: bool) -> Values:
     """Return when and how fast the engine meets the pier, and the pier's motion then."""
     length, deceleration = case.engine.plateau_length, values["engine_deceleration"]
     time = closing_time(case.speed, deceleration, length)
@@ -111,7 +111,7 @@ def _engine_contact(case: Collision, values: Values, pier_moves: bool) -> Values
     }
 
 
-def _engine_blow(case: Collision, values: Values, spectrum: Spectrum | None) -> Values:
+def _engine_blow(case: Parameters, values: Values, spectrum: Spectrum | None) -> Values:
     """Return the engine's reaction."""
     mass, stiffness = case.engine.mass, case.engine.stiffness
     found = _spectrum_values("engine", case.engine, case, values, spectrum)
@@ -134,7 +134,7 @@ def _engine_blow(case: Collision, values: Values, spectrum: Spectrum | None) -> 
 
 
 def _spectrum_values(
-    body: str, spring: Spring, case: Collision, values: Values, spectrum: Spectrum | None
+    body: str, spring: Spring, case: Parameters, values: Values, spectrum: Spectrum | None
 ) -> Values:
     """Return the arguments of the unified spectrum and the amplification, of engine or cargo."""
     zeta = values["zeta"]
@@ -150,7 +150,7 @@ def _spectrum_values(
     }
 
 
-def _cargo_by_hand(case: Collision, values: Values, spectrum: Spectrum | None) -> Values:
+def _cargo_by_hand(case: Parameters, values: Values, spectrum: Spectrum | None) -> Values:
     """Return the cargo's reaction by its spectrum, plus a share of the ringing that is left."""
     mass, length, stiffness = case.body.mass, case.body.plateau_length, case.body.stiffness
     time = closing_time(case.speed, values["cargo_deceleration"], length)
@@ -175,7 +175,7 @@ def _cargo_by_hand(case: Collision, values: Values, spectrum: Spectrum | None) -
     return found
 
 
-def _ringing(case: Collision, values: Values) -> Values:
+def _ringing(case: Parameters, values: Values) -> Values:
     """Return when the engine lets go and the pier's motion then, from its rest without it.
 
     The blow acts on the pier as if at one instant, its centroid; a slow blow excites a fast
@@ -210,7 +210,7 @@ def _ringing(case: Collision, values: Values) -> Values:
     }
 
 
-def _pier_at(case: Collision, values: Values, t: Real) -> Motion:
+def _pier_at(case: Parameters, values: Values, t: Real) -> Motion:
     """Return the pier's motion before cargo contact."""
     rings = t > values["ringing_time"]
     push = np.where(rings, values["body_push"], values["plateau_push"]) / case.pier_stiffness
@@ -223,7 +223,7 @@ def _pier_at(case: Collision, values: Values, t: Real) -> Motion:
     return Motion(x + push, v)
 
 
-def _cargo_contact(case: Collision, values: Values) -> Values:
+def _cargo_contact(case: Parameters, values: Values) -> Values:
     """Return when and how fast the cargo meets the pier, and the pier's motion then."""
     length, deceleration = case.body.plateau_length, values["cargo_deceleration"]
     first_time = closing_time(case.speed, deceleration, length)
@@ -240,7 +240,7 @@ def _cargo_contact(case: Collision, values: Values) -> Values:
     }
 
 
-def _engine_cut_short(case: Collision, values: Values) -> Values:
+def _engine_cut_short(case: Parameters, values: Values) -> Values:
     """Return the engine's reaction where the cargo may arrive before the pier has crested."""
     omega, omega_d, zeta = values["omega"], values["omega_d"], values["zeta"]
     x, v = values["ringing_x"], values["ringing_v"]
@@ -261,7 +261,7 @@ def _engine_cut_short(case: Collision, values: Values) -> Values:
     }
 
 
-def _cargo_modes(case: Collision, values: Values) -> Values:
+def _cargo_modes(case: Parameters, values: Values) -> Values:
     """Return the cargo's reaction by the modes of body and pier, with the ringing's phase."""
     holding = values["cargo_holding"]
     beta = values["omega"] / np.sqrt(case.body.stiffness / case.body.mass)

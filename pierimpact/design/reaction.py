@@ -11,9 +11,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import one_of, positive
-from pierimpact.collision.parameters import collision, collisions
-from pierimpact.collision.regimes import Collision
+from pierimpact.checks import one_of
+from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.design import domain
 from pierimpact.design.equations import DesignStep, given, steps
 from pierimpact.design.procedure import LEVELS, design_values
@@ -40,8 +39,8 @@ class DesignReaction:
         Cargo reaction [N]; None where the cargo does not meet the pier.
     level : {"refined", "hand"}
         Level of the formulas.
-    case : Collision
-        Truck, pier and speed as plain numbers.
+    collision : Collision
+        Truck, pier and speed.
     values : dict
         Every number of the procedure by name, also those that mean nothing in this case.
     """
@@ -50,7 +49,7 @@ class DesignReaction:
     engine_contact: bool
     cargo: float | None
     level: str
-    case: Collision = field(repr=False)
+    collision: Collision
     values: dict[str, float] = field(repr=False)
 
     @property
@@ -71,7 +70,7 @@ class DesignReaction:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the formulas were not checked for, a sentence each; empty within the domain."""
-        found = domain.warnings(self.case)
+        found = domain.warnings(self.collision.parameters)
         if self.overlapping:
             found += (
                 "the cargo meets the pier before the engine lets go: the design formulas take "
@@ -82,7 +81,7 @@ class DesignReaction:
     @property
     def outside(self) -> tuple[domain.Outside, ...]:
         """The values that are outside the domain in which the formulas were studied."""
-        return domain.outside(self.case)
+        return domain.outside(self.collision.parameters)
 
     @property
     def overlapping(self) -> bool:
@@ -93,12 +92,12 @@ class DesignReaction:
     @property
     def given(self) -> tuple[DesignStep, ...]:
         """What the procedure starts from, with symbols and units."""
-        return given(self.case, self.values["zeta"])
+        return given(self.collision.parameters, self.values["zeta"])
 
     @cached_property
     def steps(self) -> tuple[DesignStep, ...]:
         """Every value that counts in this case, in order, with symbol, equation and unit."""
-        return steps(self.values, self.level, self.case.on_pier)
+        return steps(self.values, self.level, self.collision.parameters.on_pier)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,15 +152,16 @@ def design_reaction(
         When the speed is not positive or the level unknown.
     """
     one_of("level", level, LEVELS)
-    case = collision(truck, pier, positive("speed", speed))
-    values = {name: float(value) for name, value in design_values(case, level).items()}
+    collision = Collision(truck, pier, speed)
+    found = design_values(collision.parameters, level)
+    values = {name: float(value) for name, value in found.items()}
     cargo = values["cargo"]
     return DesignReaction(
         engine=values["engine"],
         engine_contact=values["engine_speed"] > 0.0,
         cargo=None if math.isnan(cargo) else cargo,
         level=level,
-        case=case,
+        collision=collision,
         values=values,
     )
 
@@ -176,26 +176,14 @@ def design_reactions(
 ) -> DesignReactions:
     """Return the design reactions of many piers; arguments as in `peak_reactions`.
 
-    Parameters
-    ----------
-    truck : Truck or sequence of Truck
-        One truck for all, or one for each.
-    pier_mass, pier_stiffness, damping_ratio, speed : array_like
-        As in `peak_reactions` [kg], [N/m], [-], [m/s].
-    level : {"refined", "hand"}, optional
-        Level of the formulas.
-
-    Raises
-    ------
-    InputError
-        When a value is out of range, the shapes do not broadcast or the level is unknown.
+    Beside them `level`, as in `design_reaction`.
     """
     one_of("level", level, LEVELS)
-    shape, parts = collisions(truck, pier_mass, pier_stiffness, damping_ratio, speed)
+    shape, chunks = parameter_chunks(truck, pier_mass, pier_stiffness, damping_ratio, speed)
     size = math.prod(shape)
     found = np.empty((2, size))
-    for part, case in parts:
-        values = design_values(case, level)
+    for part, parameters in chunks:
+        values = design_values(parameters, level)
         found[:, part] = values["engine"], values["cargo"]
     engine, cargo = found.reshape(2, *shape)
     return DesignReactions(engine=engine, cargo=cargo)

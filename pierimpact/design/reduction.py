@@ -22,19 +22,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, positive_array, ratio_array
-from pierimpact.collision.groups import chunks
+from pierimpact.collision.parameters import Parameters, Spring, in_chunks
 from pierimpact.collision.regimes import (
     FREE,
     STEEP,
-    Collision,
     Position,
-    Spring,
     State,
     branch,
     start,
 )
 from pierimpact.collision.series import Ops
 from pierimpact.collision.stepping import OUTCOMES, follow_all
+from pierimpact.pier.equivalent import damping_coefficient
 
 AWAY = 1e6  # crush at which the absent body would act, in units of v_i √(m_i/k_i)
 
@@ -79,28 +78,28 @@ def exact_amplification(
     # m_i = k_i = v_i = 1, so that the peak reaction is S.
     one = np.ones_like(beta)
     pier_mass, pier_stiffness = 1.0 / mu, beta**2 / mu
-    case = Collision(
+    parameters = Parameters(
         engine=Spring(one, 0.0 * one, one, one, 1.0 / e**2),
         body=Spring(one, one, AWAY * one, one, one),
         friction_force=one,
         on_pier=one < 0.0,
         pier_mass=pier_mass,
         pier_stiffness=pier_stiffness,
-        pier_damping=2.0 * zeta * np.sqrt(pier_mass * pier_stiffness),
+        pier_damping=damping_coefficient(pier_mass, pier_stiffness, zeta),
         speed=one,
     )
-    peak = follow_all(chunks(case), len(beta), _at_contact)[OUTCOMES.index("engine_peak")]
+    peak = follow_all(in_chunks(parameters), len(beta), _at_contact)[OUTCOMES.index("engine_peak")]
     found: NDArray[np.float64] = (pier_stiffness * peak).reshape(arrays[0].shape)
     return found
 
 
-def _at_contact(case: Collision, ops: Ops) -> State:
+def _at_contact(parameters: Parameters, ops: Ops) -> State:
     """Return the state in which the mass meets the pier, and the other body rests out of reach."""
-    one = case.speed
-    return start(case, ops)._replace(
+    one = parameters.speed
+    return start(parameters, ops)._replace(
         at=Position(one, one, -AWAY * one, 0.0 * one, 0.0 * one, 0.0 * one),
-        engine=branch(case.engine, STEEP * one, one, ops),
-        body=branch(case.body, FREE * one, one, ops),
+        engine=branch(parameters.engine, STEEP * one, one, ops),
+        body=branch(parameters.body, FREE * one, one, ops),
         slip=0.0 * one,
         stuck=one > 0.0,
         engine_contact=0.0 * one,

@@ -1,12 +1,13 @@
 """How the reaction changes with speed, truck mass, impact height and pier frequency."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pierimpact.collision.parameters import Collision
 from pierimpact.collision.simulate import peak_reactions
 from pierimpact.design.reaction import design_reactions
 from pierimpact.pier.column import PierColumn
@@ -14,7 +15,6 @@ from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
 
 Array: TypeAlias = NDArray[np.float64]
-Strike: TypeAlias = tuple[Truck, EquivalentPier, float]  # and the speed [m/s]
 
 #: The changes that a reviewer asks for: of speed [m/s], and of the share of the truck's mass.
 SPEED_CHANGE, MASS_CHANGE = 10.0 / 3.6, 0.2
@@ -98,27 +98,25 @@ def sensitivity(
         Speed of the truck at first touch [m/s].
     """
 
-    def at_speed(value: float) -> Strike | None:
-        return (truck, pier, value) if value > 0.0 else None
+    def at_speed(value: float) -> Collision | None:
+        return Collision(truck, pier, value) if value > 0.0 else None
 
-    def at_mass(value: float) -> Strike | None:
-        return (truck.with_mass(value), pier, speed) if value > truck.engine_mass else None
+    def at_mass(value: float) -> Collision | None:
+        if value <= truck.engine_mass:
+            return None
+        return Collision(truck.with_mass(value), pier, speed)
 
-    def at_height(value: float) -> Strike | None:
+    def at_height(value: float) -> Collision | None:
         if value >= column.height:
             return None
-        return truck, column.equivalent(value, pier.damping_ratio), speed
+        return Collision(truck, column.equivalent(value, pier.damping_ratio), speed)
 
-    def at_frequency(value: float) -> Strike:
-        other = EquivalentPier(
-            mass=pier.mass,
-            stiffness=pier.mass * (2.0 * np.pi * value) ** 2,
-            damping_ratio=pier.damping_ratio,
-        )
-        return truck, other, speed
+    def at_frequency(value: float) -> Collision:
+        other = EquivalentPier.from_frequency(pier.mass, value, pier.damping_ratio)
+        return Collision(truck, other, speed)
 
     mass = truck.mass
-    asked: dict[str, tuple[Any, Callable[[float], Strike | None]]] = {
+    asked: dict[str, tuple[Any, Callable[[float], Collision | None]]] = {
         "speed": (speed * _SHARES, at_speed),
         "mass": (mass * _SHARES, at_mass),
         "impact_height": (impact_height * _SHARES, at_height),
@@ -128,22 +126,26 @@ def sensitivity(
         "lighter": ([mass * (1.0 - MASS_CHANGE)], at_mass),
         "heavier": ([mass * (1.0 + MASS_CHANGE)], at_mass),
     }
-    strikes = {
-        name: {float(value): strike for value in values if (strike := at(float(value)))}
+    collisions = {
+        name: {float(value): changed for value in values if (changed := at(float(value)))}
         for name, (values, at) in asked.items()
     }
-    return Sensitivity(**_reactions(strikes))  # type: ignore[arg-type]
+    return Sensitivity(**_reactions(collisions))  # type: ignore[arg-type]
 
 
-def _reactions(strikes: Mapping[str, Mapping[float, Strike]]) -> dict[str, Variation | None]:
+def _reactions(
+    collisions: Mapping[str, Mapping[float, Collision]],
+) -> dict[str, Variation | None]:
     """Return the variations by name, None for those without a value; all in one go."""
-    together: Sequence[Strike] = [s for part in strikes.values() for s in part.values()]
-    trucks = [truck for truck, _, _ in together]
-    columns = np.array([(p.mass, p.stiffness, p.damping_ratio, v) for _, p, v in together]).T
+    together = [collision for part in collisions.values() for collision in part.values()]
+    trucks = [collision.truck for collision in together]
+    columns = np.array(
+        [(c.pier.mass, c.pier.stiffness, c.pier.damping_ratio, c.speed) for c in together]
+    ).T
     peaks, design = peak_reactions(trucks, *columns), design_reactions(trucks, *columns)
     found: dict[str, Variation | None] = {}
     first = 0
-    for name, part in strikes.items():
+    for name, part in collisions.items():
         where = slice(first, first + len(part))
         first += len(part)
         found[name] = (

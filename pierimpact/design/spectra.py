@@ -7,11 +7,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import one_of, positive, positive_array
-from pierimpact.collision.parameters import collisions
+from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.collision.simulate import peak_reactions
 from pierimpact.design.formulas import amplification
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reduction import exact_amplification
+from pierimpact.pier.equivalent import stiffness_at_frequency
 from pierimpact.vehicle.truck import Truck
 
 Array = NDArray[np.float64]
@@ -112,13 +113,13 @@ def _spectrum(
     one_of("level", level, LEVELS)
     frequency = np.atleast_1d(positive_array("frequency", frequency))
     pier_mass = positive("pier_mass", pier_mass)
-    stiffness = pier_mass * (2.0 * math.pi * frequency) ** 2
+    stiffness = stiffness_at_frequency(pier_mass, frequency)
     peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)
-    _, parts = collisions(truck, pier_mass, stiffness, damping_ratio, speed)
+    _, chunks = parameter_chunks(truck, pier_mass, stiffness, damping_ratio, speed)
     two_degrees, closed_form = np.empty_like(frequency), np.empty_like(frequency)
-    for part, case in parts:
-        two_degrees[part] = design_values(case, "hand", exact_amplification)[which]
-        closed_form[part] = design_values(case, level)[which]
+    for part, parameters in chunks:
+        two_degrees[part] = design_values(parameters, "hand", exact_amplification)[which]
+        closed_form[part] = design_values(parameters, level)[which]
     mass, spring = (
         (truck.engine_mass, truck.engine_spring)
         if which == "engine"

@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.collision.groups import chunks, take
-from pierimpact.collision.parameters import collision
-from pierimpact.collision.regimes import STEEP, Collision, Law, Spring, State
+from pierimpact.collision.groups import select, single
+from pierimpact.collision.parameters import Collision, Parameters, Spring, in_chunks
+from pierimpact.collision.regimes import STEEP, Law, State
 from pierimpact.collision.stepping import OUTCOMES, follow, follow_all
 from pierimpact.design import domain, formulas
 from pierimpact.design.procedure import LEVELS, design_values
@@ -55,26 +55,28 @@ class Reactions(NamedTuple):
     governing: Array
 
 
-def full_model(case: Collision) -> Reactions:
+def full_model(parameters: Parameters) -> Reactions:
     """Return the peak reactions by the full model."""
-    peaks = dict(zip(OUTCOMES, follow_all(chunks(case), len(case.speed)), strict=True))
-    engine = case.pier_stiffness * peaks["engine_peak"]
-    cargo = case.pier_stiffness * peaks["cargo_peak"]
+    peaks = dict(
+        zip(OUTCOMES, follow_all(in_chunks(parameters), len(parameters.speed)), strict=True)
+    )
+    engine = parameters.pier_stiffness * peaks["engine_peak"]
+    cargo = parameters.pier_stiffness * peaks["cargo_peak"]
     return Reactions(engine, cargo, np.fmax(engine, cargo))
 
 
-def predictions(case: Collision, level: str) -> Reactions:
+def predictions(parameters: Parameters, level: str) -> Reactions:
     """Return the same reactions by the design procedure."""
-    values = design_values(case, level)
+    values = design_values(parameters, level)
     engine, cargo = values["engine"], values["cargo"]
     return Reactions(engine, cargo, np.fmax(engine, cargo))
 
 
-def with_truck(case: Collision, truck: Truck) -> Collision:
+def with_truck(parameters: Parameters, truck: Truck) -> Parameters:
     """Return the collisions with another truck, the same in each."""
-    own = collision(truck, EquivalentPier(mass=1.0, stiffness=1.0), 1.0)
-    same = np.ones_like(case.speed)
-    return case._replace(
+    own = Collision(truck, EquivalentPier(mass=1.0, stiffness=1.0), 1.0).parameters
+    same = np.ones_like(parameters.speed)
+    return parameters._replace(
         engine=Spring(*(same * x for x in own.engine)),
         body=Spring(*(same * x for x in own.body)),
         friction_force=same * own.friction_force,
@@ -99,10 +101,10 @@ def summary(ratios: Array) -> Summary:
 
 
 def assessment(
-    case: Collision, exact: Reactions, predicted: Reactions
+    parameters: Parameters, exact: Reactions, predicted: Reactions
 ) -> dict[str, dict[str, Summary]]:
     """Return summaries of predicted over CMSD by reaction and frequency band."""
-    frequency = domain.values(case)["pier frequency"]
+    frequency = domain.values(parameters)["pier frequency"]
     found: dict[str, dict[str, Summary]] = {}
     for which in Reactions._fields:
         ratios = getattr(predicted, which) / getattr(exact, which)
@@ -113,13 +115,13 @@ def assessment(
     return found
 
 
-def contact_speeds(case: Collision) -> tuple[Array, Array]:
+def contact_speeds(parameters: Parameters) -> tuple[Array, Array]:
     """Return the speeds of engine and cargo as they meet the pier by the full model.
 
     Over the road, each of shape (n,); nan where the body does not meet the pier [m/s].
     """
-    speeds = np.full((2, len(case.speed)), np.nan)
-    for i in range(len(case.speed)):
+    speeds = np.full((2, len(parameters.speed)), np.nan)
+    for i in range(len(parameters.speed)):
         found = speeds[:, i]
 
         def record(state: State, law: Law, h: float, found: Array = found) -> None:
@@ -129,31 +131,22 @@ def contact_speeds(case: Collision) -> tuple[Array, Array]:
             if np.isnan(found[1]) and state.body.regime == STEEP:
                 found[1] = at.u2 + at.vp
 
-        one = take(case, i)
-        follow(
-            Collision(
-                *(
-                    Spring(*map(float, item)) if isinstance(item, Spring) else item.item()
-                    for item in one
-                )
-            ),
-            record=record,
-        )
+        follow(single(parameters, i), record=record)
     return speeds[0], speeds[1]
 
 
-def speed_errors(case: Collision) -> dict[str, dict[str, Summary]]:
+def speed_errors(parameters: Parameters) -> dict[str, dict[str, Summary]]:
     """Return how far approach speeds are off by level and body, over the speed of the truck.
 
     Where the body meets the pier by the full model.
     """
-    exact = contact_speeds(case)
+    exact = contact_speeds(parameters)
     found: dict[str, dict[str, Summary]] = {}
     for level in LEVELS:
-        values = design_values(case, level)
+        values = design_values(parameters, level)
         found[level] = {}
         for body, speed in zip(("engine", "cargo"), exact, strict=True):
-            error = (values[f"{body}_speed"] - speed) / case.speed
+            error = (values[f"{body}_speed"] - speed) / parameters.speed
             error = error[np.isfinite(error)]
             found[level][body] = {
                 "cases": len(error),
@@ -165,18 +158,18 @@ def speed_errors(case: Collision) -> dict[str, dict[str, Summary]]:
     return found
 
 
-def spectrum_arguments(case: Collision) -> tuple[Array, Array, Array, Array]:
+def spectrum_arguments(parameters: Parameters) -> tuple[Array, Array, Array, Array]:
     """Return β, μ, e and ζ of every engine, followed by those of every cargo."""
-    omega = np.sqrt(case.pier_stiffness / case.pier_mass)
-    zeta = domain.values(case)["damping ratio"]
+    omega = np.sqrt(parameters.pier_stiffness / parameters.pier_mass)
+    zeta = domain.values(parameters)["damping ratio"]
     pairs = [
         (
             omega / np.sqrt(spring.stiffness / spring.mass),
-            spring.mass / case.pier_mass,
+            spring.mass / parameters.pier_mass,
             np.sqrt(spring.stiffness / spring.unloading_stiffness),
             zeta,
         )
-        for spring in (case.engine, case.body)
+        for spring in (parameters.engine, parameters.body)
     ]
     beta, mu, e, zeta = (np.concatenate(pair) for pair in zip(*pairs, strict=True))
     return beta, mu, e, zeta
@@ -200,11 +193,11 @@ def fit(arguments: tuple[Array, Array, Array, Array], exact: Array) -> dict[str,
 
 def study(size: int = SIZE, seed: int = SEED) -> dict[str, Any]:
     """Run the study and return what goes into the file."""
-    case = domain.sample(size, seed)
-    arguments = spectrum_arguments(case)
+    parameters = domain.sample(size, seed)
+    arguments = spectrum_arguments(parameters)
     exact = exact_amplification(*arguments)
     closed = formulas.amplification(*arguments)
-    reactions = full_model(case)
+    reactions = full_model(parameters)
     return {
         "seed": seed,
         "size": size,
@@ -219,14 +212,15 @@ def study(size: int = SIZE, seed: int = SEED) -> dict[str, Any]:
             "cargo": summary(closed[size:] / exact[size:]),
         },
         "predicted over CMSD": {
-            level: assessment(case, reactions, predictions(case, level)) for level in LEVELS
+            level: assessment(parameters, reactions, predictions(parameters, level))
+            for level in LEVELS
         },
         "governing of the first cases, predicted over CMSD": {
-            level: (predictions(case, level).governing / reactions.governing)[:SHOWN].tolist()
+            level: (predictions(parameters, level).governing / reactions.governing)[:SHOWN].tolist()
             for level in LEVELS
         },
         "error of the approach speed over the truck's": speed_errors(
-            take(case, slice(0, FOLLOWED))
+            select(parameters, slice(0, FOLLOWED))
         ),
     }
 

@@ -2,8 +2,28 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
 
 from pierimpact.checks import InputError, not_negative, positive
+
+Real: TypeAlias = Any  # a float, or an array of any shape
+
+
+def natural_frequency(mass: Real, stiffness: Real) -> Real:
+    """Return the undamped frequency √(k/m)/2π of a mass [kg] on a spring [N/m] [Hz]."""
+    return np.sqrt(stiffness / mass) / (2.0 * math.pi)
+
+
+def stiffness_at_frequency(mass: Real, frequency: Real) -> Real:
+    """Return the stiffness m (2π f)² on which a mass [kg] has that frequency [Hz] [N/m]."""
+    return mass * (2.0 * math.pi * frequency) ** 2
+
+
+def damping_coefficient(mass: Real, stiffness: Real, damping_ratio: Real) -> Real:
+    """Return c = 2 ζ √(k m) for a mass [kg], a stiffness [N/m] and a damping ratio [N s/m]."""
+    return 2.0 * damping_ratio * np.sqrt(stiffness * mass)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +57,15 @@ class EquivalentPier:
             raise InputError(f"damping_ratio must be below 1, got {damping_ratio:g}")
         object.__setattr__(self, "damping_ratio", damping_ratio)
 
+    @classmethod
+    def from_frequency(
+        cls, mass: float, frequency: float, damping_ratio: float = 0.05
+    ) -> "EquivalentPier":
+        """Return the pier of a mass [kg] and an undamped frequency f_p [Hz]."""
+        mass, frequency = positive("mass", mass), positive("frequency", frequency)
+        stiffness = stiffness_at_frequency(mass, frequency)
+        return cls(mass=mass, stiffness=stiffness, damping_ratio=damping_ratio)
+
     @property
     def circular_frequency(self) -> float:
         """Undamped circular frequency ω_p = √(k_p/m_p) [rad/s]."""
@@ -45,9 +74,9 @@ class EquivalentPier:
     @property
     def frequency(self) -> float:
         """Undamped frequency f_p = ω_p/2π [Hz]."""
-        return self.circular_frequency / (2.0 * math.pi)
+        return float(natural_frequency(self.mass, self.stiffness))
 
     @property
     def damping(self) -> float:
         """Damping coefficient c_p = 2 ζ √(k_p m_p) [N s/m]."""
-        return 2.0 * self.damping_ratio * math.sqrt(self.stiffness * self.mass)
+        return float(damping_coefficient(self.mass, self.stiffness, self.damping_ratio))

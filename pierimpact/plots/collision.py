@@ -166,7 +166,7 @@ def energy_panel(figure: Figure) -> Axes:
 def draw_energy(axes: Axes, history: CollisionHistory) -> None:
     """Draw where the truck's energy is, as shares that add up to all of it."""
     axes.set_xlim(_span(history))
-    energy, whole = history.energy, 0.5 * history.truck.mass * history.speed**2
+    energy, whole = history.energy, history.collision.energy
     few = np.linspace(0.0, history.time[-1], _SAMPLES)
     shares = (np.interp(few, history.time, getattr(energy, name)) for name, _, _ in _SHARES)
     axes.stackplot(

@@ -1,6 +1,5 @@
 """The validation notebook's blocks: the design procedure against the full model."""
 
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -8,8 +7,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.collision.groups import take
-from pierimpact.collision.regimes import Collision
+from pierimpact.collision.groups import select
+from pierimpact.collision.parameters import Parameters
 from pierimpact.design import domain
 from pierimpact.design.formulas import amplification
 from pierimpact.design.procedure import LEVELS
@@ -29,6 +28,7 @@ from pierimpact.design.study import (
     summary,
     with_truck,
 )
+from pierimpact.pier.equivalent import damping_coefficient, stiffness_at_frequency
 from pierimpact.plots import validation as spectrum_figures
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline
@@ -74,7 +74,7 @@ class Validation:
     seed: int = SEED + 1
 
     @cached_property
-    def _case(self) -> Collision:
+    def _case(self) -> Parameters:
         return domain.sample(self.size, self.seed)
 
     @cached_property
@@ -168,7 +168,7 @@ class Validation:
 
     def approach_speeds(self) -> Block:
         """Return how far the speeds at contact are off."""
-        found = speed_errors(take(self._case, slice(0, FOLLOWED)))
+        found = speed_errors(select(self._case, slice(0, FOLLOWED)))
         rows: list[list[Inline]] = [
             [
                 f"{body.capitalize()}, {level}",
@@ -198,7 +198,7 @@ class Validation:
 
     def trucks(self, trucks: Sequence[Truck]) -> Block:
         """Return the statistics of the governing reaction for other trucks, on the same piers."""
-        few = take(self._case, slice(0, _FEW))
+        few = select(self._case, slice(0, _FEW))
         return _table(
             "tab-trucks",
             "Predicted over full-model governing reaction: one truck on the piers of the domain, "
@@ -214,7 +214,7 @@ class Validation:
 
     def beyond(self) -> Block:
         """Return the statistics of the governing reaction where one thing leaves the domain."""
-        few = take(self._case, slice(0, _FEW))
+        few = select(self._case, slice(0, _FEW))
         random, size = np.random.default_rng(self.seed), len(few.speed)
         found = domain.values(few)
         frequency, damping = found["pier frequency"], found["damping ratio"]
@@ -240,7 +240,7 @@ class Validation:
         )
 
 
-def _both_levels(cases: dict[str, Collision]) -> Iterator[tuple[str, Summary]]:
+def _both_levels(cases: dict[str, Parameters]) -> Iterator[tuple[str, Summary]]:
     for name, case in cases.items():
         exact = full_model(case)
         for level in LEVELS:
@@ -248,10 +248,10 @@ def _both_levels(cases: dict[str, Collision]) -> Iterator[tuple[str, Summary]]:
             yield f"{name}, {level}", summary(ratios)
 
 
-def _pier(case: Collision, frequency: Array, damping_ratio: Array) -> Collision:
+def _pier(case: Parameters, frequency: Array, damping_ratio: Array) -> Parameters:
     """Return the collisions with piers of the same mass but another frequency [Hz] and damping."""
-    stiffness = case.pier_mass * (2.0 * math.pi * frequency) ** 2
-    damping = 2.0 * damping_ratio * np.sqrt(stiffness * case.pier_mass)
+    stiffness = stiffness_at_frequency(case.pier_mass, frequency)
+    damping = damping_coefficient(case.pier_mass, stiffness, damping_ratio)
     return case._replace(pier_stiffness=stiffness, pier_damping=damping)
 
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.history import between
 from pierimpact.plots.schematic import SWING, Frame, Scene
-from pierimpact.teaching.scenario import Strike
+from pierimpact.teaching.scenario import Scenario
 from pierimpact.vehicle.crush import CrushSpring
 
 Array = NDArray[np.float64]
@@ -21,14 +21,14 @@ class Animation:
 
     Parameters
     ----------
-    strike : Strike
+    scenario : Scenario
         The collision.
     """
 
-    def __init__(self, strike: Strike) -> None:
-        self.strike = strike
-        self.times = np.linspace(0.0, float(strike.history.time[-1]), FRAMES)
-        for moment in _moments(strike):  # each has a frame of its own, to the instant
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self.times = np.linspace(0.0, float(scenario.history.time[-1]), FRAMES)
+        for moment in _moments(scenario):  # each has a frame of its own, to the instant
             self.times[self.index(moment)] = moment
 
     def index(self, time: float) -> int:
@@ -42,17 +42,17 @@ class Animation:
     @cached_property
     def scene(self) -> Scene:
         """What stays."""
-        strike = self.strike
+        scenario = self.scenario
         return Scene(
-            truck=strike.truck,
-            column=strike.column,
+            truck=scenario.truck,
+            column=scenario.struck_column,
             exaggeration=self._exaggeration,
-            largest=float(np.abs(strike.history.reaction).max()),
+            largest=float(np.abs(scenario.history.reaction).max()),
         )
 
     @cached_property
     def _frames(self) -> Array:
-        history, truck = self.strike.history, self.strike.truck
+        history, truck = self.scenario.history, self.scenario.truck
         pier = between(history.time, history.pier_displacement, history.pier_velocity, self.times)
         series = [
             history.engine_crush,
@@ -65,18 +65,18 @@ class Animation:
             history.body_velocity,
         ]
         others = (np.interp(self.times, history.time, samples) for samples in series)
-        return np.array([self.times, pier, self.strike.pier.stiffness * pier, *others]).T
+        return np.array([self.times, pier, self.scenario.pier.stiffness * pier, *others]).T
 
     @property
     def _exaggeration(self) -> float:
         """How many times larger the pier's movement is drawn, a round number."""
-        raw = SWING / float(np.abs(self.strike.history.pier_displacement).max())
+        raw = SWING / float(np.abs(self.scenario.history.pier_displacement).max())
         unit = 10.0 ** math.floor(math.log10(raw))
         return max(unit * n for n in (1.0, 2.0, 5.0) if unit * n <= raw * 1.001)
 
     def phase(self, frame: Frame) -> str:
         """Say what is going on at a frame."""
-        history = self.strike.history
+        history = self.scenario.history
         engine, cargo = history.engine_contact_time, history.cargo_contact_time
         t = frame.time
         if frame.engine_force <= 0.0 and frame.body_force <= 0.0:
@@ -90,9 +90,9 @@ class Animation:
         return "Sheet metal crumples: two plateau forces push the pier."
 
 
-def _moments(strike: Strike) -> list[float]:
+def _moments(scenario: Scenario) -> list[float]:
     """Return the instants of the contacts and peaks [s]."""
-    history = strike.history
+    history = scenario.history
     peaks = (history.engine_peak, history.cargo_peak)
     moments = [history.engine_contact_time, history.cargo_contact_time]
     moments += [peak.time for peak in peaks if peak is not None]

@@ -83,7 +83,7 @@ class CollisionExplorer(Explorer):
                 **charts,
             },
             draw=self._contents,
-            words=lambda _: readouts.outcome(self.strike),
+            words=readouts.outcome,
             **options,
         )
         self.play.value = self.frame.value  # or a page could start from either
@@ -91,27 +91,27 @@ class CollisionExplorer(Explorer):
 
     def _contents(self, scenario: Scenario) -> Contents:
         if scenario != self._scenario:
-            strike = scenario.strike
-            animation = Animation(strike)
             # Nothing of the old collision is replaced before all of the new one is there.
-            self._scenario, self.strike, self.animation = scenario, strike, animation
+            self.animation = Animation(scenario)
+            self._scenario = scenario
             for words, when in _MOMENTS.items():
-                self._moments[words].disabled = when(strike.history) is None
-        frame = self.animation.frame(self.frame.value)
-        strike, history = self.strike, self.strike.history
+                self._moments[words].disabled = when(scenario.history) is None
+        # The one drawn first of those that are equal: its history is known.
+        scenario = self.animation.scenario
+        frame, history = self.animation.frame(self.frame.value), scenario.history
         contents: dict[str, tuple[Any, ...]] = {
             "instant": (readouts.instant(frame, self.animation.phase(frame)),),
             "picture": ((self.animation.scene,), (self.animation.scene, frame)),
-            "readout": (readouts.collision_readout(strike),),
+            "readout": (readouts.collision_readout(scenario),),
             "forces": ((history,), (frame.time, frame.reaction)),
             "energy": ((history,), (frame.time,)),
         }
-        curves = strike.curves if "engine" in self.views else None
+        curves = scenario.curves if "engine" in self.views else None
         for body, peak in (("engine", history.engine_peak), ("cargo", history.cargo_peak)):
             if curves is not None:
                 spectrum = curves.frequency, curves.full[body], curves.reduced[body]
                 reaction = None if peak is None else peak.reaction
-                contents[body] = (spectrum, (*spectrum, strike.pier.frequency, reaction))
+                contents[body] = (spectrum, (*spectrum, scenario.pier.frequency, reaction))
         return contents
 
     @property
@@ -127,7 +127,7 @@ class CollisionExplorer(Explorer):
         self._moments = {}
         for words, when in _MOMENTS.items():
             button = ipw.Button(description=words, layout=ipw.Layout(width="auto"))
-            button.on_click(lambda _, when=when: self.show(when(self.strike.history)))
+            button.on_click(lambda _, when=when: self.show(when(self.animation.scenario.history)))
             self._moments[words] = button
         shown = {name: view.widget for name, view in self.views.items()}
         whole = ipw.Layout(flex="1 1 100%")
@@ -144,7 +144,7 @@ class CollisionExplorer(Explorer):
 
     def _stills(self, words: str) -> str:
         """Return the views as HTML, with a picture at either peak."""
-        history, pictures = self.strike.history, ""
+        history, pictures = self.animation.scenario.history, ""
         peaks = {"cargo": history.cargo_peak, "engine": history.engine_peak}
         for body, peak in peaks.items():  # the engine's comes last, and stays on show
             if peak is not None:

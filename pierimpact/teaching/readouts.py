@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pierimpact.plots.schematic import Frame
 from pierimpact.plots.style import BODIES, INK, MUTED, ORANGE
 from pierimpact.teaching import theory
-from pierimpact.teaching.scenario import Scenario, Strike
+from pierimpact.teaching.scenario import Scenario
 from pierimpact.units import printed
 
 
@@ -25,9 +25,9 @@ def milliseconds(value: float) -> str:
     return str(printed(value, "time", "SI"))
 
 
-def outcome(strike: Strike) -> str:
+def outcome(scenario: Scenario) -> str:
     """Say in sentences what the collision did."""
-    history = strike.history
+    history = scenario.history
     engine, cargo = history.engine_peak, history.cargo_peak
     if history.engine_contact_time is None and cargo is None:
         return (
@@ -56,15 +56,14 @@ def instant(frame: Frame, phase: str) -> str:
     )
 
 
-def collision_readout(strike: Strike) -> str:
+def collision_readout(scenario: Scenario) -> str:
     """Return the numbers of the pier and of the collision, as HTML."""
-    pier, history = strike.pier, strike.history
-    whole = 0.5 * strike.truck.mass * strike.speed**2
+    pier, history = scenario.pier, scenario.history
     items = [
         ("f_p", printed(pier.frequency, "frequency", "SI"), "pier frequency"),
         ("k_p", printed(pier.stiffness, "stiffness", "SI"), "pier stiffness"),
         ("m_p", printed(pier.mass, "mass", "SI"), "pier mass"),
-        ("Truck’s energy", printed(whole, "energy", "SI"), "½ (m₁ + m₂) V²"),
+        ("Truck’s energy", printed(scenario.collision.energy, "energy", "SI"), "½ (m₁ + m₂) V²"),
         ("Engine peak", force(history.engine_peak.reaction), "largest reaction before the cargo"),
         (
             "Cargo peak",
@@ -72,7 +71,7 @@ def collision_readout(strike: Strike) -> str:
             "largest reaction from cargo contact on",
         ),
     ]
-    return _table_line(items) + _sentence(outcome(strike))
+    return _table_line(items) + _sentence(outcome(scenario))
 
 
 def shape_words(scenario: Scenario) -> str:
@@ -90,7 +89,7 @@ def shape_words(scenario: Scenario) -> str:
 def shape_readout(scenario: Scenario) -> str:
     """Return the numbers of Eqs 1–3, as HTML."""
     column = scenario.column
-    pier = scenario.strike.pier
+    pier = scenario.pier
     whole = column.mass_per_length * column.height
     items = [
         ("k_p", printed(pier.stiffness, "stiffness", "SI"), "stiffness, Eq. 3"),
@@ -101,9 +100,9 @@ def shape_readout(scenario: Scenario) -> str:
     return _table_line(items) + _sentence(shape_words(scenario))
 
 
-def amplification_words(strike: Strike, values: dict[str, float]) -> str:
+def amplification_words(scenario: Scenario, values: dict[str, float]) -> str:
     """Say how the reduction compares with the full model."""
-    history = strike.history
+    history = scenario.history
     peaks = {"engine": history.engine_peak, "cargo": history.cargo_peak}
     words = []
     for body, peak in peaks.items():
@@ -119,9 +118,9 @@ def amplification_words(strike: Strike, values: dict[str, float]) -> str:
     return " ".join(words)
 
 
-def amplification_readout(strike: Strike, values: dict[str, float]) -> str:
-    """Return the steps from approach speed to reaction beside the full model's, as HTML."""
-    history = strike.history
+def amplification_readout(scenario: Scenario, values: dict[str, float]) -> str:
+    """Return the steps from contact speed to reaction beside the full model's, as HTML."""
+    history = scenario.history
     peaks = {"engine": history.engine_peak, "cargo": history.cargo_peak}
     rows = ""
     for body, colour in BODIES.items():
@@ -140,31 +139,31 @@ def amplification_readout(strike: Strike, values: dict[str, float]) -> str:
             + "".join(f'<td style="text-align:right;padding:2px 10px">{c}</td>' for c in cells)
             + "</tr>"
         )
-    heads = ("", "approach speed", "μ", "e", "β", "S", "two degrees of freedom", "full model")
+    heads = ("", "contact speed", "μ", "e", "β", "S", "two degrees of freedom", "full model")
     head = "".join(
         f'<th style="text-align:right;font-weight:400;color:{MUTED};padding:2px 10px">{h}</th>'
         for h in heads
     )
     table = f'<table style="border-collapse:collapse;font-size:13px">{head}{rows}</table>'
-    return table + _sentence(amplification_words(strike, values))
+    return table + _sentence(amplification_words(scenario, values))
 
 
-def design_words(strike: Strike) -> str:
+def design_words(scenario: Scenario) -> str:
     """Say what the design procedure found."""
-    design = theory.design(strike)
-    ratio = design.reaction / strike.history.governing_peak.reaction
+    design = scenario.design()
+    ratio = design.reaction / scenario.history.governing_peak.reaction
     return (
         f"Design reaction {force(design.reaction)}, {ratio:.2f} of the full model’s. "
         f"The {design.governs} governs."
     )
 
 
-def design_readout(strike: Strike) -> str:
+def design_readout(scenario: Scenario) -> str:
     """Return what the design procedure found, with its warnings, as HTML."""
-    design = theory.design(strike)
+    design = scenario.design()
     cargo = "none" if design.cargo is None else force(design.cargo)
     items = [
-        ("f_p", printed(strike.pier.frequency, "frequency", "SI"), "pier frequency"),
+        ("f_p", printed(scenario.pier.frequency, "frequency", "SI"), "pier frequency"),
         ("Design, engine", force(design.engine), "refined level"),
         ("Design, cargo", cargo, "refined level"),
         ("Design reaction", force(design.reaction), "the larger of the two"),
@@ -172,7 +171,7 @@ def design_readout(strike: Strike) -> str:
     warned = "".join(
         f'<div style="color:#8a5300">{html.escape(words)}.</div>' for words in design.warnings
     )
-    return _table_line(items) + _sentence(design_words(strike)) + warned
+    return _table_line(items) + _sentence(design_words(scenario)) + warned
 
 
 def influence_words(changes: dict[str, NDArray[np.float64] | None]) -> str:
@@ -191,9 +190,9 @@ def influence_words(changes: dict[str, NDArray[np.float64] | None]) -> str:
     return " ".join(words)
 
 
-def influence_readout(strike: Strike, changes: dict[str, NDArray[np.float64] | None]) -> str:
+def influence_readout(scenario: Scenario, changes: dict[str, NDArray[np.float64] | None]) -> str:
     """Return the numbers of the collision and what moves its peaks most, as HTML."""
-    return collision_readout(strike) + _sentence(influence_words(changes))
+    return collision_readout(scenario) + _sentence(influence_words(changes))
 
 
 def refusal(words: str) -> str:

@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from pierimpact.checks import InputError
 from pierimpact.collision.history import CollisionHistory
-from pierimpact.collision.parameters import collisions
+from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.collision.simulate import peak_reactions, simulate
 from pierimpact.design.procedure import design_values
+from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.files.trucks import load_truck
 from pierimpact.pier.column import PierColumn, StruckColumn
-from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.pier.equivalent import EquivalentPier, natural_frequency, stiffness_at_frequency
 from pierimpact.pier.sections import CircularSection
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
@@ -56,11 +57,11 @@ def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -
     damping_ratio : float
         Damping ratio of the pier [-].
     """
-    stiffness = pier_mass * (2.0 * math.pi * FREQUENCIES) ** 2
+    stiffness = stiffness_at_frequency(pier_mass, FREQUENCIES)
     peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)
-    _, parts = collisions(truck, pier_mass, stiffness, damping_ratio, speed)
-    _, case = next(parts)  # fewer piers than one chunk holds
-    reduced = design_values(case, "hand")
+    _, chunks = parameter_chunks(truck, pier_mass, stiffness, damping_ratio, speed)
+    _, parameters = next(chunks)  # fewer piers than one chunk holds
+    reduced = design_values(parameters, "hand")
     return Curves(
         frequency=FREQUENCIES,
         full={"engine": peaks.engine, "cargo": peaks.cargo},
@@ -70,45 +71,7 @@ def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -
 
 def body_frequency(mass: float, stiffness: float) -> float:
     """Frequency f_i = √(k_i/m_i)/2π of a body on its steep spring [Hz]."""
-    return math.sqrt(stiffness / mass) / (2.0 * math.pi)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Strike:
-    """One collision.
-
-    Parameters
-    ----------
-    truck : Truck
-        The truck.
-    pier : EquivalentPier
-        The pier.
-    speed : float
-        Speed at first touch [m/s].
-    column : StruckColumn or None, optional
-        The column behind the pier; None where only mass and frequency are given.
-    """
-
-    truck: Truck
-    pier: EquivalentPier
-    speed: float
-    column: StruckColumn | None = None
-
-    @cached_property
-    def history(self) -> CollisionHistory:
-        """The collision by the full model, until a while after its last peak."""
-        history = simulate(self.truck, self.pier, self.speed, _SHORTEST)
-        peaks = (history.engine_peak, history.cargo_peak)
-        last = max(peak.time for peak in peaks if peak is not None)
-        end = max(_SHORTEST, _STEP * math.ceil(1.1 * last / _STEP))
-        if history.end.time < end:
-            history = simulate(self.truck, self.pier, self.speed, end)
-        return _until(history, end)
-
-    @property
-    def curves(self) -> Curves:
-        """Spectra for piers of this mass and damping."""
-        return curves(self.truck, self.speed, self.pier.mass, self.pier.damping_ratio)
+    return float(natural_frequency(mass, stiffness))
 
 
 def _until(history: CollisionHistory, end: float) -> CollisionHistory:
@@ -213,8 +176,15 @@ class Scenario:
         )
 
     @cached_property
-    def strike(self) -> Strike:
-        """The collision.
+    def struck_column(self) -> StruckColumn | None:
+        """The column as struck; None where only the pier's mass and frequency are given."""
+        if self.pier_mass is not None and self.pier_frequency is not None:
+            return None
+        return self.column.struck_at(self.impact_height)
+
+    @cached_property
+    def pier(self) -> EquivalentPier:
+        """The pier.
 
         Raises
         ------
@@ -222,17 +192,41 @@ class Scenario:
             When a value breaks a rule.
         """
         if self.pier_mass is not None and self.pier_frequency is not None:
-            stiffness = self.pier_mass * (2.0 * math.pi * self.pier_frequency) ** 2
-            pier = EquivalentPier(
-                mass=self.pier_mass, stiffness=stiffness, damping_ratio=self.damping_ratio
+            return EquivalentPier.from_frequency(
+                self.pier_mass, self.pier_frequency, self.damping_ratio
             )
-            return Strike(truck=self.truck, pier=pier, speed=self.speed)
-        return Strike(
-            truck=self.truck,
-            pier=self.column.equivalent(self.impact_height, self.damping_ratio),
-            speed=self.speed,
-            column=self.column.struck_at(self.impact_height),
-        )
+        return self.column.equivalent(self.impact_height, self.damping_ratio)
+
+    @cached_property
+    def collision(self) -> Collision:
+        """The collision.
+
+        Raises
+        ------
+        InputError
+            When a value breaks a rule.
+        """
+        return Collision(self.truck, self.pier, self.speed)
+
+    @cached_property
+    def history(self) -> CollisionHistory:
+        """The collision by the full model, until a while after its last peak."""
+        history = simulate(self.truck, self.pier, self.speed, _SHORTEST)
+        peaks = (history.engine_peak, history.cargo_peak)
+        last = max(peak.time for peak in peaks if peak is not None)
+        end = max(_SHORTEST, _STEP * math.ceil(1.1 * last / _STEP))
+        if history.end.time < end:
+            history = simulate(self.truck, self.pier, self.speed, end)
+        return _until(history, end)
+
+    def design(self, level: str = "refined") -> DesignReaction:
+        """Return the design reaction of the collision."""
+        return design_reaction(self.truck, self.pier, self.speed, level)
+
+    @property
+    def curves(self) -> Curves:
+        """Spectra for piers of this mass and damping."""
+        return curves(self.truck, self.speed, self.pier.mass, self.pier.damping_ratio)
 
 
 #: The pier of the lessons on reduction and spectra: between soft and stiff.

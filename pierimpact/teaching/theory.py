@@ -7,18 +7,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.collision.parameters import collision
 from pierimpact.collision.simulate import peak_reactions
 from pierimpact.design.codes import code_forces
 from pierimpact.design.formulas import amplification
 from pierimpact.design.procedure import LEVELS, design_values
-from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.pier.column import PierColumn
 from pierimpact.plots.amplification import Amplification
 from pierimpact.plots.comparison import Bar
 from pierimpact.plots.style import BODIES, GREEN, GREY
-from pierimpact.teaching.scenario import Strike
+from pierimpact.teaching.scenario import Scenario
 from pierimpact.vehicle.crush import CrushSpring
 
 Array = NDArray[np.float64]
@@ -65,15 +63,15 @@ def by_height(column: PierColumn) -> ByHeight:
     )
 
 
-def by_hand(strike: Strike) -> dict[str, float]:
+def by_hand(scenario: Scenario) -> dict[str, float]:
     """Return the hand procedure's values, with the exact amplification of either body."""
-    case = collision(strike.truck, strike.pier, strike.speed)
-    closed = design_values(case, "hand")
+    parameters = scenario.collision.parameters
+    closed = design_values(parameters, "hand")
     names = [[f"{body}_{name}" for body in BODIES] for name in ("beta", "mu", "e")]
     beta, mu, e = ([float(closed[name]) for name in pair] for pair in names)
-    exact = exact_amplification(beta, mu, e, strike.pier.damping_ratio)
+    exact = exact_amplification(beta, mu, e, scenario.pier.damping_ratio)
     known = dict(zip(beta, exact.tolist(), strict=True))
-    values = design_values(case, "hand", lambda b, *_: known[float(b)])
+    values = design_values(parameters, "hand", lambda b, *_: known[float(b)])
     return {name: float(value) for name, value in values.items()}
 
 
@@ -104,30 +102,25 @@ def amplifications(
     }
 
 
-def bars(strike: Strike) -> list[Bar]:
+def bars(scenario: Scenario) -> list[Bar]:
     """Return the forces of full model, design procedure and codes."""
-    history = strike.history
+    history = scenario.history
     peaks = {"engine": history.engine_peak, "cargo": history.cargo_peak}
     found = [
         Bar(f"Full model, {body}", None if peak is None else peak.reaction, BODIES[body], "")
         for body, peak in peaks.items()
     ]
     for level in LEVELS:
-        reaction = design(strike, level).reaction
+        reaction = scenario.design(level).reaction
         ratio = reaction / history.governing_peak.reaction
         remark = f"{ratio:.2f} of the full model"
         found.append(Bar(f"Design procedure, {level}", reaction, GREEN, remark))
-    for code in code_forces(strike.speed, strike.truck.mass):
+    for code in code_forces(scenario.speed, scenario.truck.mass):
         found.append(Bar(code.code, code.along.value, GREY, code.along.remark))
     return found
 
 
-def design(strike: Strike, level: str = "refined") -> DesignReaction:
-    """Return the design reaction of a collision."""
-    return design_reaction(strike.truck, strike.pier, strike.speed, level)
-
-
-def influences(strike: Strike) -> dict[str, Array | None]:
+def influences(scenario: Scenario) -> dict[str, Array | None]:
     """Return the relative change of each peak with every one of PARAMETERS.
 
     Returns
@@ -136,7 +129,7 @@ def influences(strike: Strike) -> dict[str, Array | None]:
         For "engine" and "cargo": the change with the parameter smaller and larger, nan where the
         peak is gone [-]; None where there is no such peak to begin with.
     """
-    truck = strike.truck
+    truck = scenario.truck
     factors = (1.0 - CHANGE, 1.0 + CHANGE)
     trucks = [
         replace(truck, **{spring: _changed(getattr(truck, spring), name, factor)})  # type: ignore[arg-type]
@@ -149,8 +142,8 @@ def influences(strike: Strike) -> dict[str, Array | None]:
         for name in _REST
         for factor in factors
     ]
-    pier, history = strike.pier, strike.history
-    peaks = peak_reactions(trucks, pier.mass, pier.stiffness, pier.damping_ratio, strike.speed)
+    pier, history = scenario.pier, scenario.history
+    peaks = peak_reactions(trucks, pier.mass, pier.stiffness, pier.damping_ratio, scenario.speed)
     before = {"engine": history.engine_peak, "cargo": history.cargo_peak}
     return {
         body: None if peak is None else getattr(peaks, body).reshape(-1, 2) / peak.reaction - 1.0

@@ -87,11 +87,10 @@ def reduction() -> Explorer:
     """Explore the reduction to two degrees of freedom: the amplification of either body."""
 
     def contents(scenario: Scenario) -> Contents:
-        strike = scenario.strike
-        values = theory.by_hand(strike)
+        values = theory.by_hand(scenario)
         mu, e = ((values[f"engine_{name}"], values[f"cargo_{name}"]) for name in ("mu", "e"))
-        curves = theory.amplifications(mu, e, strike.pier.damping_ratio)
-        return {"readout": (readouts.amplification_readout(strike, values),)} | {
+        curves = theory.amplifications(mu, e, scenario.damping_ratio)
+        return {"readout": (readouts.amplification_readout(scenario, values),)} | {
             body: ((curves[body],), (curves[body], values[f"{body}_beta"], values[f"{body}_S"]))
             for body in BODIES
         }
@@ -111,9 +110,7 @@ def reduction() -> Explorer:
             for body in BODIES
         },
         draw=contents,
-        words=lambda scenario: readouts.amplification_words(
-            scenario.strike, theory.by_hand(scenario.strike)
-        ),
+        words=lambda scenario: readouts.amplification_words(scenario, theory.by_hand(scenario)),
         defaults=EXAMPLE,
     )
 
@@ -122,13 +119,12 @@ def design() -> Explorer:
     """Explore the design reaction beside the full model and what codes say."""
 
     def contents(scenario: Scenario) -> Contents:
-        strike = scenario.strike
         return {
-            "readout": (readouts.design_readout(strike),),
-            "bars": ((theory.bars(strike),),),
+            "readout": (readouts.design_readout(scenario),),
+            "bars": ((theory.bars(scenario),),),
         }
 
-    names = [bar.name for bar in theory.bars(Scenario().strike)]
+    names = [bar.name for bar in theory.bars(Scenario())]
     return Explorer(
         title="Design reaction, full model and code forces",
         controls=["speed", "truck_mass", *_COLUMN, "impact_height"],
@@ -142,7 +138,7 @@ def design() -> Explorer:
             ),
         },
         draw=contents,
-        words=lambda scenario: readouts.design_words(scenario.strike),
+        words=readouts.design_words,
     )
 
 
@@ -150,9 +146,8 @@ def sensitivity() -> Explorer:
     """Explore which of the truck's parameters matter."""
 
     def contents(scenario: Scenario) -> Contents:
-        strike = scenario.strike
-        changes = theory.influences(strike)
-        return {"readout": (readouts.influence_readout(strike, changes),)} | {
+        changes = theory.influences(scenario)
+        return {"readout": (readouts.influence_readout(scenario, changes),)} | {
             body: ((changes[body],),) for body in BODIES
         }
 
@@ -175,5 +170,5 @@ def sensitivity() -> Explorer:
             for body in BODIES
         },
         draw=contents,
-        words=lambda scenario: readouts.influence_words(theory.influences(scenario.strike)),
+        words=lambda scenario: readouts.influence_words(theory.influences(scenario)),
     )

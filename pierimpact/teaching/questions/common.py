@@ -15,7 +15,7 @@ PEAKS = ("the engine peak", "the cargo peak")
 
 @cache
 def _history(scenario: Scenario) -> CollisionHistory:
-    return scenario.strike.history
+    return scenario.history
 
 
 def engine_peak(scenario: Scenario) -> float:

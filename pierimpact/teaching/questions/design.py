@@ -1,7 +1,6 @@
 """Exercises of the lesson on design by spectrum."""
 
 from pierimpact.design.codes import aashto_lrfd, en_1991_1_7_hard_impact
-from pierimpact.design.reaction import design_reaction
 from pierimpact.teaching.checker import Question, Trap
 from pierimpact.teaching.questions.common import KMH, SLOW, engine_peak
 from pierimpact.teaching.scenario import Scenario
@@ -10,13 +9,11 @@ _HEAVY_MASS, _HEAVY_SPEED = 30e3, 90.0 * KMH
 
 
 def _design(level: str = "refined") -> float:
-    strike = Scenario(speed=SLOW).strike
-    return design_reaction(strike.truck, strike.pier, strike.speed, level).reaction
+    return Scenario(speed=SLOW).design(level).reaction
 
 
 def _design_of(body: str) -> float:
-    strike = Scenario(speed=SLOW).strike
-    design = design_reaction(strike.truck, strike.pier, strike.speed)
+    design = Scenario(speed=SLOW).design()
     return design.engine if body == "engine" else design.cargo or 0.0
 
 

@@ -7,18 +7,18 @@ from pierimpact.teaching.scenario import REFERENCE, Scenario
 
 
 def _most_for_engine_peak() -> str:
-    strike = Scenario().strike
+    usual = Scenario()
     changed = {
         "the engine’s mass": Scenario(engine_mass=1.3 * REFERENCE.engine_mass),
         "the body’s plateau length": Scenario(body_plateau_length=1.3 * BODY.plateau_length),
         "the friction": Scenario(friction_force=1.3 * REFERENCE.friction_force),
     }
-    pier = strike.pier
+    pier = usual.pier
     peaks = peak_reactions(
         [scenario.truck for scenario in changed.values()],
-        pier.mass, pier.stiffness, pier.damping_ratio, strike.speed,
+        pier.mass, pier.stiffness, pier.damping_ratio, usual.speed,
     ).engine  # fmt: skip
-    before = engine_peak(Scenario())
+    before = engine_peak(usual)
     return max(zip(changed, peaks, strict=True), key=lambda pair: abs(pair[1] - before))[0]
 
 
@@ -31,7 +31,7 @@ QUESTIONS = (
     ),
     Question(
         words=f"The body’s spring has k = {BODY.stiffness / 1e6:g} MN/m and k_u = "
-        f"{BODY.unloading_stiffness / 1e6:g} MN/m. With which fraction of its approach speed "
+        f"{BODY.unloading_stiffness / 1e6:g} MN/m. With which fraction of its contact speed "
         "would the cargo come back from a rigid pier, by its steep spring alone?",
         answer=lambda: BODY.restitution,
         traps=(

@@ -19,7 +19,7 @@ def _shear() -> float:
 
 def _softer_when_higher() -> str:
     low, high = Scenario(impact_height=1.05), Scenario(impact_height=1.35)
-    stiffer = high.strike.pier.stiffness > low.strike.pier.stiffness
+    stiffer = high.pier.stiffness > low.pier.stiffness
     return "stiffer" if stiffer else "softer"
 
 
@@ -31,7 +31,7 @@ QUESTIONS = (
         f"{printed(_PILLAR.column.shear_rigidity, 'shear rigidity', 'SI')}. What is its stiffness "
         "k_p there?",
         dimension="stiffness",
-        answer=lambda: _PILLAR.strike.pier.stiffness,
+        answer=lambda: _PILLAR.pier.stiffness,
         traps=(
             Trap(lambda: 1.0 / _flexure(), "That leaves out the shear deflection."),
             Trap(lambda: 1.0 / _shear(), "That leaves out the flexural deflection."),
@@ -48,7 +48,7 @@ QUESTIONS = (
         f"{Scenario().column_height:g} m high; the integral of φ² over its height is "
         f"{Scenario().column.struck_at(1.2).shape_integral:.4g} m. What is m_p?",
         dimension="mass",
-        answer=lambda: Scenario().strike.pier.mass,
+        answer=lambda: Scenario().pier.mass,
         traps=(
             Trap(
                 lambda: Scenario().column.mass_per_length * Scenario().column_height,

@@ -11,7 +11,7 @@ def _beta(body: str) -> float:
     mass, spring = (
         (REFERENCE.engine_mass, ENGINE) if body == "engine" else (REFERENCE.body_mass, BODY)
     )
-    return EXAMPLE.strike.pier.frequency / body_frequency(mass, spring.stiffness)
+    return EXAMPLE.pier.frequency / body_frequency(mass, spring.stiffness)
 
 
 QUESTIONS = (

@@ -17,7 +17,7 @@ _SOFT = Scenario(pier_mass=8e3, pier_frequency=10.0)
 
 def _crossing() -> float:
     """Return the frequency from which the engine governs, between two of the spectrum's [Hz]."""
-    full = EXAMPLE.strike.curves.full
+    full = EXAMPLE.curves.full
     first = int((full["engine"] > full["cargo"]).argmax())
     return float(math.sqrt(FREQUENCIES[first - 1] * FREQUENCIES[first]))
 
