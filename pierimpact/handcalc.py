@@ -37,6 +37,7 @@ _CALLS = {
     "sin": r"\sin(%s)",
     "sqrt": r"\sqrt{%s}",
 }  # fmt: skip
+_NESTED = ("maximum", "minimum")
 _COMPARISONS: dict[type[ast.cmpop], tuple[str, str]] = {  # that holds, and that does not
     ast.Gt: (">", r"\le"),
     ast.GtE: (r"\ge", "<"),
@@ -163,6 +164,15 @@ class Calculation:
             found.append(step)
         return found[::-1]
 
+    def split(self, steps: Iterable[Step], *starts: str) -> list[list[Step]]:
+        """Return steps in parts, each of which starts where a name stands in the calculation."""
+        order = {name: place for place, name in enumerate(self.names)}
+        ends = [order[name] for name in starts]
+        parts: list[list[Step]] = [[] for _ in range(len(ends) + 1)]
+        for step in steps:
+            parts[sum(order[step.name] >= end for end in ends)].append(step)
+        return parts
+
 
 def _lines(function: Callable[..., Any]) -> list[_Line]:
     """Return the lines of a calculation or part, those of its own parts in their place."""
@@ -284,15 +294,18 @@ class _Printer:
         """Return an expression; `flat` is without fractions, as in an exponent."""
 
         def within(inner: str, own: int) -> str:
-            pair = ("(", ")") if flat else (r"\left(", r"\right)")
-            return inner.join(pair) if own < outer else inner
+            if own >= outer:
+                return inner
+            if flat:
+                return f"({inner})"
+            return rf"\left[{inner}\right]" if "(" in inner else rf"\left({inner}\right)"
 
         match node:
             case ast.Name(id="pi"):
                 return r"\pi"
             case ast.Name(id=name):
                 return self._operand(self.shown[name], outer)
-            case ast.Constant(value=value):
+            case ast.Constant(value=int() | float() as value):
                 return self._operand(f"{value:g}", outer)
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 return within(f"-{self.text(operand, _PRODUCT, flat)}", _ALONE)
@@ -303,21 +316,23 @@ class _Printer:
                 right = self.text(b, _SUM if plus else _PRODUCT, flat)
                 left = self.text(a, _ALONE, flat)
                 return within(f"{left} {'+' if plus else '-'} {right}", _SUM)
+            case ast.BinOp(left=ast.Constant(), op=ast.Mult(), right=ast.Name(id="pi")):
+                return within(rf"{self.text(node.left)} \pi", _PRODUCT)
             case ast.BinOp(left=a, op=ast.Mult(), right=b):
                 pair = self.text(a, _PRODUCT, flat), self.text(b, _PRODUCT, flat)
                 return within(f" {self.times} ".join(pair), _PRODUCT)
             case ast.BinOp(left=a, op=ast.Div(), right=b) if flat or (
-                _plain(a) and _plain(b) and outer <= _SUM
+                self._short(a) and self._short(b) and outer != _PRODUCT
             ):
-                return within(
-                    f"{self.text(a, _PRODUCT, flat)} / {self.text(b, _POWER, flat)}", _PRODUCT
-                )
+                below = self.text(b, _POWER, flat)
+                return within(f"{self.text(a, _PRODUCT, flat)} / {below}", _PRODUCT)
             case ast.BinOp(left=a, op=ast.Div(), right=b):
                 return rf"\frac{{{self.text(a)}}}{{{self.text(b)}}}"
             case ast.BinOp(left=a, op=ast.Pow(), right=b):
                 power = self.text(b, _ALONE, flat=True)
                 return f"{self.text(a, _POWER, flat)}^{{{power}}}"
             case ast.Call(func=ast.Name(id=name), args=arguments) if name in _CALLS:
+                arguments = _flattened(name, arguments)
                 holes = _CALLS[name].count("%s")
                 tight = _POWER if holes > 1 else _ALONE
                 inner = tuple(self.text(a, tight, flat or name == "exp") for a in arguments)
@@ -327,10 +342,17 @@ class _Printer:
 
     def _operand(self, text: str, outer: int) -> str:
         """Return a symbol or a value; a sign, a unit or a power of ten may want brackets."""
-        own = _ALONE if text.startswith("-") else _POWER
-        if r"\times" in text or r"\text" in text:
-            own = min(own, _PRODUCT)
+        own = _ALONE if text.startswith("-") else _PRODUCT if _compound(text) else _POWER
         return f"({text})" if own < outer else text
+
+    def _short(self, node: ast.expr) -> bool:
+        """Return whether what prints for a tree is so short that it needs no fraction."""
+        match node:
+            case ast.BinOp(left=left, op=ast.Pow()):
+                return self._short(left)
+            case ast.Name(id=name):
+                return not _compound(self.shown.get(name, ""))
+        return isinstance(node, ast.Constant)
 
 
 def _without_sign(node: ast.expr) -> ast.expr | None:
@@ -344,10 +366,21 @@ def _without_sign(node: ast.expr) -> ast.expr | None:
     return None
 
 
-def _plain(node: ast.expr) -> bool:
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
-        return _plain(node.left)
-    return isinstance(node, ast.Name | ast.Constant)
+def _compound(text: str) -> bool:
+    """Return whether a value has a unit or a power of ten."""
+    return r"\text" in text or r"\times" in text
+
+
+def _flattened(name: str, arguments: Sequence[ast.expr]) -> list[ast.expr]:
+    """Return the arguments of a maximum or minimum, with those of the same within them."""
+    flat: list[ast.expr] = []
+    for argument in arguments:
+        match argument:
+            case ast.Call(func=ast.Name(id=inner), args=own) if inner == name and name in _NESTED:
+                flat += _flattened(name, own)
+            case _:
+                flat.append(argument)
+    return flat
 
 
 def _bound(function: Callable[..., Any], arguments: Sequence[ast.expr]) -> dict[str, ast.expr]:

@@ -15,6 +15,11 @@ class Symbol(NamedTuple):
     quantity: str = ""  #: kind, of `units.QUANTITIES`; empty for a word
     key: str = ""  #: name in a case file or a truck file, where it has one
 
+    @property
+    def heading(self) -> str:
+        """The meaning as it begins a line."""
+        return self.meaning[:1].upper() + self.meaning[1:]
+
 
 def _spring(body: str, i: int) -> dict[str, Symbol]:
     """Return the parameters of the crush law of a body's spring."""
@@ -151,7 +156,7 @@ SYMBOLS = {
     "fp": Symbol("frequency of the pier", r"f_\mathrm{p}", "frequency"),
     "cp": Symbol("damping coefficient of the pier", r"c_\mathrm{p}", "damping"),
     # The design procedure: pier and plateau forces
-    "on_pier": Symbol("friction on the pier", r"\text{friction on the pier}"),
+    "on_pier": Symbol("friction on the pier", r"\text{friction acts on the pier}"),
     "omega": Symbol("circular frequency of the pier", r"\omega_\mathrm{p}", "circular frequency"),
     "omega_d": Symbol(
         "damped circular frequency of the pier", r"\omega_\mathrm{d}", "circular frequency"
@@ -221,7 +226,7 @@ SYMBOLS = {
     "x0": Symbol("displacement at which pier and cargo in contact would rest", "x_0", "length"),
     "gamma": Symbol("difference in frequency of pier and cargo", r"\gamma", "share"),
     "lam": Symbol("root of the modes", r"\lambda", "share"),
-    "Lam": Symbol(r"$\lambda + \gamma$", r"\Lambda", "share"),
+    "Lam": Symbol(r"sum of $\lambda$ and $\gamma$", r"\Lambda", "share"),
     **_mode("slow"),
     **_mode("fast"),
     "tu": Symbol(
@@ -266,8 +271,9 @@ SYMBOLS = {
     "phi": Symbol("shape function", r"\varphi", "ordinate"),
 }
 
-#: The same by the keys of case files and truck files.
-BY_KEY = {symbol.key: symbol for symbol in SYMBOLS.values() if symbol.key}
+#: Names, and the symbols themselves, by the keys of case files and truck files.
+NAMES = {symbol.key: name for name, symbol in SYMBOLS.items() if symbol.key}
+BY_KEY = {key: SYMBOLS[name] for key, name in NAMES.items()}
 
 
 def dimension(symbol: Symbol) -> str:

@@ -209,6 +209,11 @@ QUANTITIES = {
     "ratio": Quantity(("", ""), ("", ""), 4),
 }
 
+#: Kinds in which the values of a calculation go together, by those of a table.
+CONSISTENT = {
+    kind: f"dynamic {kind}" for kind in ("force", "mass", "stiffness", "damping", "speed", "time")
+}
+
 
 class Printed(NamedTuple):
     """A value as it is printed."""

@@ -6,11 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.collision.parameters import Parameters, Spring
+from pierimpact.design.procedure import by_symbol
 from pierimpact.pier.equivalent import (
     damping_coefficient,
     natural_frequency,
     stiffness_at_frequency,
 )
+from pierimpact.symbols import SYMBOLS
 
 Array = NDArray[np.float64]
 
@@ -27,24 +29,23 @@ class Range(NamedTuple):
 # The truck's parameters are 30 % about the reference truck `single-unit-8t`; its friction goes
 # down to none, and acts on the road or on the pier.
 DOMAIN = {
-    "truck mass": Range(6.0, 20.0, "t", 1e3),
-    "speed": Range(50.0, 110.0, "km/h", 1.0 / 3.6),
-    "pier frequency": Range(5.0, 150.0, "Hz", 1.0),
-    "pier mass": Range(3.0, 100.0, "t", 1e3),
-    "pier stiffness": Range(50.0, 6000.0, "MN/m", 1e6),
-    "damping ratio": Range(2.0, 7.0, "%", 1e-2),
-    "engine mass": Range(490.0, 910.0, "kg", 1.0),
-    "engine plateau force": Range(105.0, 195.0, "kN", 1e3),
-    "engine plateau length": Range(0.35, 0.65, "m", 1.0),
-    "engine stiffness": Range(105.0, 195.0, "MN/m", 1e6),
-    "engine unloading stiffness": Range(630.0, 1170.0, "MN/m", 1e6),
-    "body plateau force": Range(350.0, 650.0, "kN", 1e3),
-    "body plateau length": Range(1.33, 2.47, "m", 1.0),
-    "body stiffness": Range(7.0, 13.0, "MN/m", 1e6),
-    "body unloading stiffness": Range(42.0, 78.0, "MN/m", 1e6),
-    "friction force": Range(0.0, 27.95, "kN", 1e3),
+    "m": Range(6.0, 20.0, "t", 1e3),
+    "V": Range(50.0, 110.0, "km/h", 1.0 / 3.6),
+    "fp": Range(5.0, 150.0, "Hz", 1.0),
+    "mp": Range(3.0, 100.0, "t", 1e3),
+    "kp": Range(50.0, 6000.0, "MN/m", 1e6),
+    "zeta": Range(2.0, 7.0, "%", 1e-2),
+    "m1": Range(490.0, 910.0, "kg", 1.0),
+    "P1": Range(105.0, 195.0, "kN", 1e3),
+    "d1": Range(0.35, 0.65, "m", 1.0),
+    "k1": Range(105.0, 195.0, "MN/m", 1e6),
+    "ku1": Range(630.0, 1170.0, "MN/m", 1e6),
+    "P2": Range(350.0, 650.0, "kN", 1e3),
+    "d2": Range(1.33, 2.47, "m", 1.0),
+    "k2": Range(7.0, 13.0, "MN/m", 1e6),
+    "ku2": Range(42.0, 78.0, "MN/m", 1e6),
+    "cs": Range(0.0, 27.95, "kN", 1e3),
 }
-SPRING = ("plateau force", "plateau length", "stiffness", "unloading stiffness")
 
 
 def bounds(name: str) -> tuple[float, float]:
@@ -55,21 +56,9 @@ def bounds(name: str) -> tuple[float, float]:
 
 def values(parameters: Parameters) -> dict[str, Any]:
     """Return what DOMAIN bounds, of a collision or of many."""
-    found = {
-        "truck mass": parameters.engine.mass + parameters.body.mass,
-        "speed": parameters.speed,
-        "pier frequency": natural_frequency(parameters.pier_mass, parameters.pier_stiffness),
-        "pier mass": parameters.pier_mass,
-        "pier stiffness": parameters.pier_stiffness,
-        "damping ratio": parameters.pier_damping
-        / (2.0 * np.sqrt(parameters.pier_stiffness * parameters.pier_mass)),
-        "engine mass": parameters.engine.mass,
-        "friction force": parameters.friction_force,
-    }
-    for body, spring in (("engine", parameters.engine), ("body", parameters.body)):
-        for name, value in zip(SPRING, spring[1:], strict=True):
-            found[f"{body} {name}"] = value
-    return found
+    found = by_symbol(parameters)
+    found |= {"m": found["m1"] + found["m2"], "fp": natural_frequency(found["mp"], found["kp"])}
+    return {name: found[name] for name in DOMAIN}
 
 
 class Outside(NamedTuple):
@@ -95,10 +84,10 @@ def outside(parameters: Parameters) -> tuple[Outside, ...]:
 def warnings(parameters: Parameters) -> tuple[str, ...]:
     """Return a sentence for each value of one collision that is outside the studied domain."""
     return tuple(
-        f"{name} {value / DOMAIN[name].size:.4g} {DOMAIN[name].unit} is outside the studied "
-        f"{DOMAIN[name].low:g} to {DOMAIN[name].high:g} {DOMAIN[name].unit}: the design formulas "
-        "were not checked there"
+        f"{SYMBOLS[name].meaning} {value / size:.4g} {unit} is outside the studied {low:g} to "
+        f"{high:g} {unit}: the design formulas were not checked there"
         for name, value, _, _ in outside(parameters)
+        for low, high, unit, size in [DOMAIN[name]]
     )
 
 
@@ -123,23 +112,23 @@ def sample(size: int, seed: int) -> Parameters:
 
     mass, stiffness = np.empty(0), np.empty(0)
     while len(mass) < size:
-        low, high = np.log([bounds("pier frequency"), bounds("pier mass")]).T
+        low, high = np.log([bounds("fp"), bounds("mp")]).T
         frequency, trial = np.exp(random.uniform(low, high, (size, 2))).T
         stiff = stiffness_at_frequency(trial, frequency)
-        softest, stiffest = bounds("pier stiffness")
+        softest, stiffest = bounds("kp")
         keep = (stiff >= softest) & (stiff <= stiffest)
         mass, stiffness = np.append(mass, trial[keep]), np.append(stiffness, stiff[keep])
     mass, stiffness = mass[:size], stiffness[:size]
-    engine_mass = uniform("engine mass")
+    engine_mass = uniform("m1")
     return Parameters(
-        engine=Spring(engine_mass, *(uniform(f"engine {name}") for name in SPRING)),
+        engine=Spring(engine_mass, *(uniform(name) for name in ("P1", "d1", "k1", "ku1"))),
         body=Spring(
-            uniform("truck mass") - engine_mass, *(uniform(f"body {name}") for name in SPRING)
+            uniform("m") - engine_mass, *(uniform(name) for name in ("P2", "d2", "k2", "ku2"))
         ),
-        friction_force=uniform("friction force"),
+        friction_force=uniform("cs"),
         on_pier=random.uniform(size=size) < 0.5,
         pier_mass=mass,
         pier_stiffness=stiffness,
-        pier_damping=damping_coefficient(mass, stiffness, uniform("damping ratio")),
-        speed=uniform("speed"),
+        pier_damping=damping_coefficient(mass, stiffness, uniform("zeta")),
+        speed=uniform("V"),
     )

@@ -1,302 +1,416 @@
-"""The arithmetic of the design procedure, value by value, in the order of a collision.
+"""The design procedure, every equation once, in the order of a collision.
 
-The plateau forces push the pier aside; the engine strikes it and leaves it ringing; the cargo
-strikes it while it rings. Two levels, both in closed form: "hand" fits on a page and needs a
-calculator; "refined" keeps the phase of the ringing and lets the pier's own motion correct the
-times and speeds of contact. All is derived here. `equations` has the same equations
-in print, under the same names.
+The plateau forces push the pier aside; the engine strikes it and leaves it vibrating; the cargo
+strikes it meanwhile. Two levels, both in closed form. The short one is the method to follow: it
+fits on a page and needs a calculator. The long one is for who wants to see why: it keeps the
+phase of the vibration, and lets the pier's own motion correct times and speeds of contact. All is
+derived here: the source paper's own formulas are not in its surviving text. What each symbol
+stands for is in `pierimpact.symbols`, how the lines are printed in `pierimpact.handcalc`.
 """
 
-import math
 from collections.abc import Callable
+from math import pi
 from typing import Any, TypeAlias
 
 import numpy as np
-
-from pierimpact.collision.parameters import Parameters, Spring
-from pierimpact.design.formulas import (
-    RINGING_BETA,
-    RINGING_SHARE,
-    Motion,
-    approach_speed,
-    closing_time,
-    contact_modes,
-    crests,
-    engine_pulse,
-    hump,
-    joined,
-    swing,
+from numpy import (
+    abs,
+    arctan,
+    arctan2,
+    cos,
+    exp,
+    floor,
+    hypot,
+    maximum,
+    minimum,
+    mod,
+    nan,
+    sin,
+    sqrt,
+    where,
 )
+
+from pierimpact.checks import one_of
+from pierimpact.collision.parameters import Parameters
+from pierimpact.handcalc import Calculation
+from pierimpact.pier.equivalent import damping_coefficient
 
 Real: TypeAlias = Any  # a float, or an array
 Values: TypeAlias = dict[str, Real]
-Spectrum: TypeAlias = Callable[[Real, Real, Real, Real], Real]
+#: Resonance term and amplification S of β, μ, e and ζ.
+Spectrum: TypeAlias = Callable[[Real, Real, Real, Real], tuple[Real, Real]]
 
-LEVELS = ("refined", "hand")
+# The coefficients of the unified spectrum, fitted by `study`, and of the rule for the vibration
+# that is left when the cargo arrives, chosen on its cases.
+RESONANCE = 1.45
+RESONANCE_END = 3.1
+RESONANCE_DECLINE = 3.1
+MASS_EFFECT = 1.4
+DAMPING_EFFECT = 5.3
+VIBRATION_SHARE = 0.6
+VIBRATION_BETA = 2.0
 
 
-def design_values(case: Parameters, level: str, spectrum: Spectrum | None = None) -> Values:
-    """Return every value of the procedure by name, in order.
+# The motion of a body that a constant force slows down
+
+
+def contact_speed(V: Real, a: Real, d: Real) -> Real:
+    """Return the speed left after a length d; zero where the body stops before [m/s]."""
+    return sqrt(maximum(V**2 - 2 * a * d, 0))
+
+
+def contact_time(V: Real, a: Real, d: Real) -> Real:
+    """Return the time to cover d; where it stops before, of a body that just reaches it [s]."""
+    return 2 * d / (V + contact_speed(V, a, d))
+
+
+# The motion of the pier
+
+
+def step_x(F: Real, k: Real, omega: Real, omega_d: Real, zeta: Real, t: Real) -> Real:
+    """Return the displacement under a force that acts suddenly from t = 0 on [m]."""
+    return F / k * (
+        1 - exp(-zeta * omega * t) * (cos(omega_d * t) + zeta * omega / omega_d * sin(omega_d * t))
+    )  # fmt: skip
+
+
+def step_v(F: Real, m: Real, omega: Real, omega_d: Real, zeta: Real, t: Real) -> Real:
+    """Return the velocity of the same [m/s]."""
+    return F / (m * omega_d) * exp(-zeta * omega * t) * sin(omega_d * t)
+
+
+def free_x(x: Real, v: Real, omega: Real, omega_d: Real, zeta: Real, t: Real) -> Real:
+    """Return the displacement of a free damped vibration, t after it was x with velocity v [m]."""
+    return exp(-zeta * omega * t) * (
+        x * cos(omega_d * t) + (v + zeta * omega * x) / omega_d * sin(omega_d * t)
+    )
+
+
+def free_v(x: Real, v: Real, omega: Real, omega_d: Real, zeta: Real, t: Real) -> Real:
+    """Return the velocity of the same [m/s]."""
+    return exp(-zeta * omega * t) * (
+        v * cos(omega_d * t) - (omega**2 * x + zeta * omega * v) / omega_d * sin(omega_d * t)
+    )
+
+
+# The unified spectrum
+
+
+def resonance(
+    beta: Real,
+    mu: Real,
+    zeta: Real,
+    height: float = RESONANCE,
+    end: float = RESONANCE_END,
+    decline: float = RESONANCE_DECLINE,
+    mass_effect: float = MASS_EFFECT,
+    damping_effect: float = DAMPING_EFFECT,
+) -> Real:
+    """Return what the motion of the pier adds to the static part of the unified spectrum [-]."""
+    return height * exp(-damping_effect * zeta) / (
+        (1 + (beta / end) ** decline) * (1 + mass_effect * mu / beta)
+    )  # fmt: skip
+
+
+def combined(beta: Real, mu: Real, e: Real, h: Real) -> Real:
+    """Return the amplification S: its impulsive and its static part, combined [-]."""
+    return 1 / sqrt(1 / ((1 + e) * beta) ** 2 + (1 + mu / beta**2) / (1 + h) ** 2)
+
+
+def unified_spectrum(beta: Real, mu: Real, e: Real, zeta: Real) -> tuple[Real, Real]:
+    """Return resonance term h and amplification S [-]."""
+    h = resonance(beta, mu, zeta)  # coefficients fitted to the full model
+    S = combined(beta, mu, e, h)
+    return h, S
+
+
+def amplification(beta: Real, mu: Real, e: Real, zeta: Real) -> Real:
+    """Return the amplification S of the unified spectrum, in closed form [-].
+
+    It meets exactly: S → (1 + e) β for a soft heavy pier (impulse), S → 1 for a stiff heavy one,
+    S → 1/√(1 + k_i/k_p) for a massless one, as k_i/k_p = μ/β².
+    """
+    return unified_spectrum(beta, mu, e, zeta)[1]
+
+
+# What both levels have in common
+
+
+def ratios(omega: Real, mp: Real, m: Real, k: Real, ku: Real) -> tuple[Real, ...]:
+    """Return frequency ratio, mass ratio and restitution of a body on its steep spring [-]."""
+    beta = omega / sqrt(k / m)
+    mu = m / mp
+    e = sqrt(k / ku)
+    return beta, mu, e
+
+
+def plateau(
+    m1: Real, P1: Real, m2: Real, P2: Real, cs: Real, mp: Real, kp: Real, zeta: Real, on_pier: Real
+) -> tuple[Real, ...]:
+    """Return what the pier is, and how the plateau forces push it and slow the truck."""
+    omega = sqrt(kp / mp)
+    omega_d = omega * sqrt(1 - zeta**2)
+    Q = where(on_pier, P2 + cs, P2)
+    Fpl = P1 + Q
+    Rpl = Fpl * (1 + exp(-pi * zeta * omega / omega_d))  # a suddenly applied force
+    a1 = P1 / m1
+    Fb = P2 + cs
+    a2 = Fb / m2
+    return omega, omega_d, Q, Fpl, Rpl, a1, Fb, a2
+
+
+def engine_impact(
+    m1: Real, k1: Real, kp: Real, omega: Real, omega_d: Real, Q: Real, Rpl: Real,
+    t1: Real, x1: Real, dx1: Real, v1: Real, S1: Real,
+) -> tuple[Real, ...]:  # fmt: skip
+    """Return the free vibration that the engine's impact leaves, and the engine's reaction."""
+    u1 = maximum(v1 - dx1, 0)
+    Rv1 = hypot(kp * x1 - Q, kp * dx1 / omega + S1 * u1 * sqrt(k1 * m1))
+    R0 = where(omega_d * t1 >= pi, Rpl, 0)
+    R1 = where(v1 > 0, maximum(Q + Rv1, R0), Rpl)
+    return u1, Rv1, R0, R1
+
+
+# The short level
+
+
+@Calculation
+def short(
+    V: Real, m1: Real, P1: Real, d1: Real, k1: Real, ku1: Real, m2: Real, P2: Real, d2: Real,
+    k2: Real, ku2: Real, cs: Real, mp: Real, kp: Real, zeta: Real, on_pier: Real,
+    spectrum: Spectrum = unified_spectrum,
+) -> Values:  # fmt: skip
+    """The pier stands still until it is struck; of its vibration, a share is added."""
+    omega, omega_d, Q, Fpl, Rpl, a1, Fb, a2 = plateau(m1, P1, m2, P2, cs, mp, kp, zeta, on_pier)
+    # Engine
+    t1 = contact_time(V, a1, d1)
+    x1 = step_x(Fpl, kp, omega, omega_d, zeta, t1)
+    dx1 = step_v(Fpl, mp, omega, omega_d, zeta, t1)
+    v1 = contact_speed(V, a1, d1)
+    beta1, mu1, e1 = ratios(omega, mp, m1, k1, ku1)
+    h1, S1 = spectrum(beta1, mu1, e1, zeta)
+    u1, Rv1, R0, R1 = engine_impact(m1, k1, kp, omega, omega_d, Q, Rpl, t1, x1, dx1, v1, S1)
+    # Cargo
+    t2 = contact_time(V, a2, d2)
+    v2 = contact_speed(V, a2, d2)
+    beta2, mu2, e2 = ratios(omega, mp, m2, k2, ku2)
+    h2, S2 = spectrum(beta2, mu2, e2, zeta)
+    F2 = sqrt(Fb**2 + k2 * m2 * v2**2) - Fb
+    Rv2 = where(v1 > 0, Rv1 * exp(-zeta * omega * (t2 - t1)), Fpl * exp(-zeta * omega * t2))
+    eta = VIBRATION_SHARE / (1 + (VIBRATION_BETA / beta2) ** 2)  # chosen on the study's cases
+    R2 = where(v2 > 0, Q + S2 * F2 + eta * Rv2, nan)
+    return locals()
+
+
+# The long level
+
+
+def pier_x(
+    t: Real, tJ: Real, xJ: Real, dxJ: Real, Q: Real, Fpl: Real, kp: Real, omega: Real,
+    omega_d: Real, zeta: Real,
+) -> Real:  # fmt: skip
+    """Return the displacement of the pier before cargo contact [m]."""
+    return where(
+        t > tJ,
+        Q / kp + free_x(xJ, dxJ, omega, omega_d, zeta, t - tJ),
+        step_x(Fpl, kp, omega, omega_d, zeta, t),
+    )
+
+
+def centroid(e: Real) -> Real:
+    """Return the mean time of an impact weighted by its force, over ω_r t [-].
+
+    The force rises in a quarter of a sine and falls in a quarter of a cosine, e times as long.
+    """
+    return (1 + pi / 2 * e + (pi / 2 - 1) * e**2) / (1 + e)
+
+
+def second_moment(e: Real) -> Real:
+    """Return the mean square of the time of the same [-]."""
+    return (
+        pi - 2 + pi**2 / 4 * e + pi * (pi / 2 - 1) * e**2 + (pi**2 / 4 - 2) * e**3
+    ) / (1 + e)  # fmt: skip
+
+
+def mode(
+    omega_i: Real, psi: Real, mu2: Real, omega: Real, zeta: Real, x2: Real, dx2: Real, v2: Real,
+    x0: Real, Fb: Real, k2: Real,
+) -> tuple[Real, ...]:  # fmt: skip
+    """Return one of the two modes of pier and cargo in contact, from their motion at contact.
+
+    Its decay rate, cosine and sine part, amplitude, phase and angle of the first maximum. The
+    damper's effect on a mode is kept, the coupling that it makes between the two is not.
+    """
+    sigma = zeta * omega / (1 + mu2 * psi**2)
+    a = (x2 - x0 + mu2 * psi * (x2 - x0 + Fb / k2)) / (1 + mu2 * psi**2)
+    b = 1 / omega_i * ((dx2 + mu2 * psi * v2) / (1 + mu2 * psi**2) + sigma * a)
+    X = hypot(a, b)
+    phi = arctan2(b, a)
+    theta = mod(phi - arctan(sigma / omega_i), 2 * pi)
+    return sigma, a, b, X, phi, theta
+
+
+def both_modes(
+    t: Real, x0: Real, X_s: Real, sigma_s: Real, omega_s: Real, phi_s: Real,
+    X_f: Real, sigma_f: Real, omega_f: Real, phi_f: Real,
+) -> Real:  # fmt: skip
+    """Return the displacement of the pier in contact with the cargo, t after contact [m]."""
+    return x0 + of_mode(t, X_s, sigma_s, omega_s, phi_s) + of_mode(t, X_f, sigma_f, omega_f, phi_f)
+
+
+def of_mode(t: Real, X: Real, sigma: Real, omega: Real, phi: Real) -> Real:
+    """Return the displacement of one mode [m]."""
+    return X * exp(-sigma * t) * cos(omega * t - phi)
+
+
+def fast_maximum(n: Real, theta_f: Real, omega_f: Real) -> Real:
+    """Return the time of the fast mode's maximum after n periods [s]."""
+    return (theta_f + 2 * pi * n) / omega_f
+
+
+def curvature(X: Real, omega: Real) -> Real:
+    """Return the curvature of a mode at its maximum [m/s²]."""
+    return X * omega**2
+
+
+@Calculation
+def long(
+    V: Real, m1: Real, P1: Real, d1: Real, k1: Real, ku1: Real, m2: Real, P2: Real, d2: Real,
+    k2: Real, ku2: Real, cs: Real, mp: Real, kp: Real, zeta: Real, on_pier: Real,
+    spectrum: Spectrum = unified_spectrum,
+) -> Values:  # fmt: skip
+    """The pier's own motion corrects times and speeds of contact; its vibration keeps its phase."""
+    omega, omega_d, Q, Fpl, Rpl, a1, Fb, a2 = plateau(m1, P1, m2, P2, cs, mp, kp, zeta, on_pier)
+    # Engine
+    t1_0 = contact_time(V, a1, d1)
+    x1_0 = step_x(Fpl, kp, omega, omega_d, zeta, t1_0)
+    t1 = contact_time(V, a1, d1 + x1_0)
+    x1 = step_x(Fpl, kp, omega, omega_d, zeta, t1)
+    dx1 = step_v(Fpl, mp, omega, omega_d, zeta, t1)
+    v1 = contact_speed(V, a1, d1 + x1)
+    beta1, mu1, e1 = ratios(omega, mp, m1, k1, ku1)
+    h1, S1 = spectrum(beta1, mu1, e1, zeta)
+    u1, Rv1, R0, R1_0 = engine_impact(m1, k1, kp, omega, omega_d, Q, Rpl, t1, x1, dx1, v1, S1)
+    # Free vibration: the impact acts on the pier as if at one instant, its centroid; a slow one
+    # excites a fast pier less. Without contact the engine stops on its plateau, and pushes no more.
+    mr = m1 / (1 + m1 / mp)
+    omega_r = sqrt(k1 / mr)
+    tbar = 1 / omega_r * centroid(e1)  # a quarter of a sine up, and down in e times its time
+    sigma_J = sqrt(1 / omega_r**2 * second_moment(e1) - tbar**2)  # of the same
+    J = where(v1 > 0, (1 + e1) * mr * u1 * exp(-(omega**2) * sigma_J**2 / 2), 0)
+    tJ = where(v1 > 0, t1 + tbar, V / a1)
+    xJ = step_x(Fpl, kp, omega, omega_d, zeta, tJ) - Q / kp
+    dxJ = step_v(Fpl, mp, omega, omega_d, zeta, tJ) + J / mp
+    # Arrival of the cargo
+    t2_0 = contact_time(V, a2, d2)
+    x2_0 = pier_x(t2_0, tJ, xJ, dxJ, Q, Fpl, kp, omega, omega_d, zeta)
+    t2 = contact_time(V, a2, d2 + x2_0)
+    x2 = pier_x(t2, tJ, xJ, dxJ, Q, Fpl, kp, omega, omega_d, zeta)
+    dx2 = where(
+        t2 > tJ,
+        free_v(xJ, dxJ, omega, omega_d, zeta, t2 - tJ),
+        step_v(Fpl, mp, omega, omega_d, zeta, t2),
+    )
+    v2 = contact_speed(V, a2, d2 + x2)
+    tc = tJ + arctan2(dxJ * omega_d, omega**2 * xJ + zeta * omega * dxJ) / omega_d
+    R1 = where(
+        (v1 > 0) & (v2 > 0) & (t2 < tc), minimum(maximum(kp * x2, R0), R1_0), R1_0
+    )  # fmt: skip
+    # Cargo: the two modes of body and pier
+    beta2, mu2, e2 = ratios(omega, mp, m2, k2, ku2)
+    x0 = (Q - Fb) / kp
+    gamma = (beta2**2 + mu2 - 1) / 2
+    lam = sqrt(gamma**2 + mu2)
+    Lam = where(gamma > 0, lam + gamma, mu2 / (lam + abs(gamma)))  # without loss of figures
+    omega_s = omega / sqrt(1 + gamma + lam)
+    psi_s = Lam / mu2
+    sigma_s, a_s, b_s, X_s, phi_s, theta_s = mode(
+        omega_s, psi_s, mu2, omega, zeta, x2, dx2, v2, x0, Fb, k2
+    )
+    omega_f = omega / beta2 * sqrt(1 + gamma + lam)
+    psi_f = -1 / Lam
+    sigma_f, a_f, b_f, X_f, phi_f, theta_f = mode(
+        omega_f, psi_f, mu2, omega, zeta, x2, dx2, v2, x0, Fb, k2
+    )
+    # Near its maximum each mode is a parabola, so that the sum has its maximum at the mean of
+    # both, weighted by their curvatures; the fast mode has one before and one after the slow's.
+    tu = theta_s / omega_s
+    w = 1 / (
+        1 + curvature(X_s, omega_s) / (curvature(X_f, omega_f) * exp((sigma_s - sigma_f) * tu))
+    )
+    n = floor((omega_f * tu - theta_f) / (2 * pi))
+    ta = maximum(tu + w * (fast_maximum(n, theta_f, omega_f) - tu), 0)
+    tb = tu + w * (fast_maximum(n + 1, theta_f, omega_f) - tu)
+    xu = both_modes(tu, x0, X_s, sigma_s, omega_s, phi_s, X_f, sigma_f, omega_f, phi_f)
+    xa = both_modes(ta, x0, X_s, sigma_s, omega_s, phi_s, X_f, sigma_f, omega_f, phi_f)
+    # As the slow mode is largest the spring turns to unloading on k_u. The modes would push the
+    # pier as much again from there on; the spring does only e times as much.
+    xb = xu + (1 + e2) / 2 * (
+        both_modes(tb, x0, X_s, sigma_s, omega_s, phi_s, X_f, sigma_f, omega_f, phi_f) - xu
+    )
+    R2 = where(v2 > 0, kp * maximum(maximum(x2, xa), xb), nan)
+    return locals()
+
+
+LEVELS = {"short": short, "long": long}
+#: Names by which the levels were known before.
+ALIASES = {"hand": "short", "refined": "long"}
+
+
+def design_values(
+    parameters: Parameters,
+    level: str = "short",
+    spectrum: Callable[[Real, Real, Real, Real], Real] | None = None,
+) -> Values:
+    """Return every value of the procedure by the name of its symbol.
 
     Parameters
     ----------
-    case : Parameters
+    parameters : Parameters
         Floats, or arrays of one shape.
-    level : {"refined", "hand"}
-        Level of the formulas.
+    level : {"short", "long"}, optional
+        Level of the procedure; "hand" and "refined" are other names of the two.
     spectrum : callable, optional
-        S of β, μ, e and ζ to use in place of the closed form.
+        Amplification S of β, μ, e and ζ to use in place of the closed form.
 
     Returns
     -------
     dict
         Values in SI, each a float or an array. Where a body does not meet the pier, the values
-        of its contact mean nothing; "cargo" is nan.
+        of its contact mean nothing; R2 is nan.
     """
-    values = _plateau(case)
-    values |= _engine_contact(case, values, pier_moves=level == "refined")
-    values |= _engine_blow(case, values, spectrum)
-    if level == "hand":
-        values["engine"] = values.pop("engine_alone")
-        return values | _cargo_by_hand(case, values, spectrum)
-    values |= _ringing(case, values)
-    values |= _cargo_contact(case, values)
-    values |= _engine_cut_short(case, values)
-    return values | _cargo_modes(case, values)
+    given = by_symbol(parameters)
+    if spectrum is not None:
+        given["spectrum"] = lambda *arguments: (nan, spectrum(*arguments))
+    # Both sides of every condition are computed; the side not taken may well overflow.
+    with np.errstate(all="ignore"):
+        return calculation_of(level)(**given)
 
 
-def _plateau(case: Parameters) -> Values:
-    """Return what the pier is, and how the plateau forces push it."""
-    omega = np.sqrt(case.pier_stiffness / case.pier_mass)
-    zeta = case.pier_damping / (2.0 * np.sqrt(case.pier_stiffness * case.pier_mass))
-    omega_d = omega * np.sqrt(1.0 - zeta**2)
-    push = case.body.plateau_force + np.where(case.on_pier, case.friction_force, 0.0)
-    both = case.engine.plateau_force + push
-    return {
-        "omega": omega,
-        "zeta": zeta,
-        "omega_d": omega_d,
-        "body_push": push,
-        "plateau_push": both,
-        "overshoot": both * (1.0 + np.exp(-math.pi * zeta * omega / omega_d)),
-        "engine_deceleration": case.engine.plateau_force / case.engine.mass,
-        "cargo_holding": case.body.plateau_force + case.friction_force,
-        "cargo_deceleration": (case.body.plateau_force + case.friction_force) / case.body.mass,
-    }
+def calculation_of(level: str) -> Calculation:
+    """Return the calculation of a level.
 
-
-def _pushed(case: Parameters, values: Values, t: Real) -> Motion:
-    """Return the pier's response to the plateau forces, applied at t = 0."""
-    rest = values["plateau_push"] / case.pier_stiffness
-    x, v = swing(Motion(-rest, 0.0), values["omega"], values["zeta"], t)
-    return Motion(x + rest, v)
-
-
-def _engine_contact(case: Parameters, values: Values, pier_moves: bool) -> Values:
-    """Return when and how fast the engine meets the pier, and the pier's motion then."""
-    length, deceleration = case.engine.plateau_length, values["engine_deceleration"]
-    time = closing_time(case.speed, deceleration, length)
-    found: Values = {}
-    if pier_moves:
-        shift = _pushed(case, values, time).x
-        found = {"engine_first_time": time, "engine_first_x": shift}
-        time = closing_time(case.speed, deceleration, length + shift)
-    x, v = _pushed(case, values, time)
-    way = length + x if pier_moves else length
-    return found | {
-        "engine_time": time,
-        "engine_pier_x": x,
-        "engine_pier_v": v,
-        "engine_speed": approach_speed(case.speed, deceleration, way),
-    }
-
-
-def _engine_blow(case: Parameters, values: Values, spectrum: Spectrum | None) -> Values:
-    """Return the engine's reaction."""
-    mass, stiffness = case.engine.mass, case.engine.stiffness
-    found = _spectrum_values("engine", case.engine, case, values, spectrum)
-    closing = np.maximum(values["engine_speed"] - values["engine_pier_v"], 0.0)
-    # Displacement and velocity of the pier's swing about its rest under the body's push, both
-    # as forces.
-    swing_x = case.pier_stiffness * values["engine_pier_x"] - values["body_push"]
-    swing_v = case.pier_stiffness * values["engine_pier_v"] / values["omega"]
-    blow = np.hypot(swing_x, swing_v + found["engine_S"] * closing * np.sqrt(stiffness * mass))
-    struck = values["body_push"] + blow
-    # The pier's first crest under the plateaus counts only where the engine lets it come.
-    crested = values["omega_d"] * values["engine_time"] >= math.pi
-    highest = np.where(crested, np.maximum(struck, values["overshoot"]), struck)
-    found |= {
-        "engine_closing": closing,
-        "engine_swing": blow,
-        "engine_alone": np.where(values["engine_speed"] > 0.0, highest, values["overshoot"]),
-    }
-    return found
-
-
-def _spectrum_values(
-    body: str, spring: Spring, case: Parameters, values: Values, spectrum: Spectrum | None
-) -> Values:
-    """Return the arguments of the unified spectrum and the amplification, of engine or cargo."""
-    zeta = values["zeta"]
-    beta = values["omega"] / np.sqrt(spring.stiffness / spring.mass)
-    mu, e = spring.mass / case.pier_mass, np.sqrt(spring.stiffness / spring.unloading_stiffness)
-    rise = hump(beta, mu, zeta)
-    return {
-        f"{body}_beta": beta,
-        f"{body}_mu": mu,
-        f"{body}_e": e,
-        f"{body}_hump": rise,
-        f"{body}_S": joined(beta, mu, e, rise) if spectrum is None else spectrum(beta, mu, e, zeta),
-    }
-
-
-def _cargo_by_hand(case: Parameters, values: Values, spectrum: Spectrum | None) -> Values:
-    """Return the cargo's reaction by its spectrum, plus a share of the ringing that is left."""
-    mass, length, stiffness = case.body.mass, case.body.plateau_length, case.body.stiffness
-    time = closing_time(case.speed, values["cargo_deceleration"], length)
-    speed = approach_speed(case.speed, values["cargo_deceleration"], length)
-    found = {"cargo_time": time, "cargo_speed": speed}
-    found |= _spectrum_values("cargo", case.body, case, values, spectrum)
-    holding = values["cargo_holding"]
-    rise = np.hypot(holding, speed * np.sqrt(stiffness * mass)) - holding
-    meets = values["engine_speed"] > 0.0
-    since = time - np.where(meets, values["engine_time"], 0.0)
-    ringing = np.where(meets, values["engine_swing"], values["plateau_push"])
-    ringing = ringing * np.exp(-values["zeta"] * values["omega"] * since)
-    # The slower the pier, the less its ringing adds up with the cargo's own peak.
-    share = RINGING_SHARE / (1.0 + (RINGING_BETA / found["cargo_beta"]) ** 2)
-    struck = values["body_push"] + found["cargo_S"] * rise + share * ringing
-    found |= {
-        "cargo_rise": rise,
-        "ringing": ringing,
-        "ringing_share": share,
-        "cargo": np.where(speed > 0.0, struck, np.nan),
-    }
-    return found
-
-
-def _ringing(case: Parameters, values: Values) -> Values:
-    """Return when the engine lets go and the pier's motion then, from its rest without it.
-
-    The blow acts on the pier as if at one instant, its centroid; a slow blow excites a fast
-    pier less.
+    Raises
+    ------
+    InputError
+        When there is no such level.
     """
-    omega, meets = values["omega"], values["engine_speed"] > 0.0
-    pulse = engine_pulse(
-        case.engine.mass,
-        case.engine.stiffness,
-        values["engine_e"],
-        case.pier_mass,
-        values["engine_closing"],
-    )
-    felt = pulse.impulse * np.exp(-0.5 * (omega * pulse.spread) ** 2)
-    felt = np.where(meets, felt, 0.0)
-    # Without contact the engine stops on its plateau, and pushes no more.
-    end = np.where(
-        meets,
-        values["engine_time"] + pulse.centroid,
-        case.speed / values["engine_deceleration"],
-    )
-    x, v = _pushed(case, values, end)
-    return {
-        "pulse_mass": pulse.mass,
-        "pulse_omega": pulse.omega,
-        "pulse_centroid": pulse.centroid,
-        "pulse_spread": pulse.spread,
-        "impulse": felt,
-        "ringing_time": end,
-        "ringing_x": x - values["body_push"] / case.pier_stiffness,
-        "ringing_v": v + felt / case.pier_mass,
+    return LEVELS[one_of("level", ALIASES.get(level, level), tuple(LEVELS))]
+
+
+def by_symbol(parameters: Parameters) -> Values:
+    """Return truck, pier and speed by the names of their symbols."""
+    values: Values = {"V": parameters.speed}
+    for i, spring in ((1, parameters.engine), (2, parameters.body)):
+        values |= {f"{name}{i}": value for name, value in zip(_SPRING, spring, strict=True)}
+    mass, stiffness = parameters.pier_mass, parameters.pier_stiffness
+    return values | {
+        "cs": parameters.friction_force,
+        "mp": mass,
+        "kp": stiffness,
+        "zeta": parameters.pier_damping / damping_coefficient(mass, stiffness, 1.0),
+        "on_pier": parameters.on_pier,
     }
 
 
-def _pier_at(case: Parameters, values: Values, t: Real) -> Motion:
-    """Return the pier's motion before cargo contact."""
-    rings = t > values["ringing_time"]
-    push = np.where(rings, values["body_push"], values["plateau_push"]) / case.pier_stiffness
-    x, v = swing(
-        Motion(np.where(rings, values["ringing_x"], -push), values["ringing_v"] * rings),
-        values["omega"],
-        values["zeta"],
-        t - values["ringing_time"] * rings,
-    )
-    return Motion(x + push, v)
-
-
-def _cargo_contact(case: Parameters, values: Values) -> Values:
-    """Return when and how fast the cargo meets the pier, and the pier's motion then."""
-    length, deceleration = case.body.plateau_length, values["cargo_deceleration"]
-    first_time = closing_time(case.speed, deceleration, length)
-    first_x = _pier_at(case, values, first_time).x
-    time = closing_time(case.speed, deceleration, length + first_x)
-    x, v = _pier_at(case, values, time)
-    return {
-        "cargo_first_time": first_time,
-        "cargo_first_x": first_x,
-        "cargo_time": time,
-        "cargo_pier_x": x,
-        "cargo_pier_v": v,
-        "cargo_speed": approach_speed(case.speed, deceleration, length + x),
-    }
-
-
-def _engine_cut_short(case: Parameters, values: Values) -> Values:
-    """Return the engine's reaction where the cargo may arrive before the pier has crested."""
-    omega, omega_d, zeta = values["omega"], values["omega_d"], values["zeta"]
-    x, v = values["ringing_x"], values["ringing_v"]
-    swing_time = np.arctan2(v * omega_d, omega**2 * x + zeta * omega * v) / omega_d
-    crest_time = values["ringing_time"] + swing_time
-    earlier = np.where(omega_d * values["engine_time"] >= math.pi, values["overshoot"], 0.0)
-    reached = np.maximum(case.pier_stiffness * values["cargo_pier_x"], earlier)
-    cut = (
-        (values["engine_speed"] > 0.0)
-        & (values["cargo_speed"] > 0.0)
-        & (values["cargo_time"] < crest_time)
-    )
-    return {
-        "engine_crest_time": crest_time,
-        "engine": np.where(
-            cut, np.minimum(reached, values["engine_alone"]), values["engine_alone"]
-        ),
-    }
-
-
-def _cargo_modes(case: Parameters, values: Values) -> Values:
-    """Return the cargo's reaction by the modes of body and pier, with the ringing's phase."""
-    holding = values["cargo_holding"]
-    beta = values["omega"] / np.sqrt(case.body.stiffness / case.body.mass)
-    mu = case.body.mass / case.pier_mass
-    rest = (values["body_push"] - holding) / case.pier_stiffness
-    x, v = values["cargo_pier_x"], values["cargo_pier_v"]
-    modes = contact_modes(
-        beta,
-        mu,
-        values["omega"],
-        values["zeta"],
-        pier=Motion(x - rest, v),
-        body=Motion(x - rest + holding / case.body.stiffness, values["cargo_speed"]),
-    )
-    slow, fast, when = modes.slow, modes.fast, crests(modes.slow, modes.fast)
-    turn_x, early_x, late_x = (
-        rest + slow.at(t) + fast.at(t) for t in (when.slow, when.early, when.late)
-    )
-    # As the slow mode crests the spring turns to the slope k_u. The modes would push the pier
-    # as much again from there on; the spring does only e times as much.
-    e = np.sqrt(case.body.stiffness / case.body.unloading_stiffness)
-    late_x = turn_x + 0.5 * (1.0 + e) * (late_x - turn_x)
-    highest = case.pier_stiffness * np.maximum(np.maximum(x, early_x), late_x)
-    found = {"cargo_beta": beta, "cargo_mu": mu, "cargo_e": e, "rest": rest}
-    found |= {"gamma": modes.gamma, "root": modes.root}
-    for name, mode in (("slow", slow), ("fast", fast)):
-        found |= {f"{name}_{field}": value for field, value in mode._asdict().items()}
-    return found | {
-        "turn_time": when.slow,
-        "fast_share": when.share,
-        "fast_turns": when.turns,
-        "early_time": when.early,
-        "late_time": when.late,
-        "turn_x": turn_x,
-        "early_x": early_x,
-        "late_x": late_x,
-        "cargo": np.where(values["cargo_speed"] > 0.0, highest, np.nan),
-    }
+_SPRING = ("m", "P", "d", "k", "ku")

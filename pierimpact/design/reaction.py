@@ -1,7 +1,4 @@
-"""The design procedure: from truck, pier and speed to engine, cargo and governing reaction.
-
-The arithmetic is in `procedure`, the same in print in `equations`.
-"""
+"""The design reaction: from truck, pier and speed to engine, cargo and governing reaction."""
 
 import math
 from collections.abc import Sequence
@@ -11,11 +8,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import one_of
 from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.design import domain
-from pierimpact.design.equations import DesignStep, given, steps
-from pierimpact.design.procedure import LEVELS, design_values
+from pierimpact.design.procedure import ALIASES, LEVELS, calculation_of, design_values
+from pierimpact.handcalc import Calculation, Step
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
 
@@ -37,12 +33,13 @@ class DesignReaction:
         Whether the engine meets the pier; without, `engine` is what the plateaus do.
     cargo : float or None
         Cargo reaction [N]; None where the cargo does not meet the pier.
-    level : {"refined", "hand"}
-        Level of the formulas.
+    level : {"short", "long"}
+        Level of the procedure.
     collision : Collision
         Truck, pier and speed.
     values : dict
-        Every number of the procedure by name, also those that mean nothing in this case.
+        Every value of the procedure by the name of its symbol, also those that mean nothing in
+        this case.
     """
 
     engine: float
@@ -86,18 +83,22 @@ class DesignReaction:
     @property
     def overlapping(self) -> bool:
         """Whether the cargo meets the pier before the engine lets go."""
-        gone = self.values.get("ringing_time", self.values["engine_time"])
-        return self.cargo is not None and self.values["cargo_time"] <= gone
+        gone = self.values.get("tJ", self.values["t1"])
+        return self.cargo is not None and self.values["t2"] <= gone
 
     @property
-    def given(self) -> tuple[DesignStep, ...]:
-        """What the procedure starts from, with symbols and units."""
-        return given(self.collision.parameters, self.values["zeta"])
+    def calculation(self) -> Calculation:
+        """The procedure at this level."""
+        return LEVELS[self.level]
 
     @cached_property
-    def steps(self) -> tuple[DesignStep, ...]:
-        """Every value that counts in this case, in order, with symbol, equation and unit."""
-        return steps(self.values, self.level, self.collision.parameters.on_pier)
+    def steps(self) -> list[Step]:
+        """The steps that the two reactions rest on, in order; without cargo contact, those to v2.
+
+        Their values are in `values`, what their symbols stand for in `pierimpact.symbols`.
+        """
+        results = ["R1", "v2" if self.cargo is None else "R2"]
+        return self.calculation.steps(self.values, results)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,7 +132,7 @@ def nominal_impact_height(engine: float, cargo: float | None) -> float:
 
 
 def design_reaction(
-    truck: Truck, pier: EquivalentPier, speed: float, level: str = "refined"
+    truck: Truck, pier: EquivalentPier, speed: float, level: str = "short"
 ) -> DesignReaction:
     """Return the design reaction of one pier.
 
@@ -143,24 +144,24 @@ def design_reaction(
         The pier.
     speed : float
         Speed of the truck at first touch [m/s].
-    level : {"refined", "hand"}, optional
-        Level of the formulas.
+    level : {"short", "long"}, optional
+        Level of the procedure: the method to follow by hand, or the one to see why. "hand" and
+        "refined" are other names of the two.
 
     Raises
     ------
     InputError
         When the speed is not positive or the level unknown.
     """
-    one_of("level", level, LEVELS)
     collision = Collision(truck, pier, speed)
     found = design_values(collision.parameters, level)
     values = {name: float(value) for name, value in found.items()}
-    cargo = values["cargo"]
+    cargo = values["R2"]
     return DesignReaction(
-        engine=values["engine"],
-        engine_contact=values["engine_speed"] > 0.0,
+        engine=values["R1"],
+        engine_contact=values["v1"] > 0.0,
         cargo=None if math.isnan(cargo) else cargo,
-        level=level,
+        level=ALIASES.get(level, level),
         collision=collision,
         values=values,
     )
@@ -172,18 +173,18 @@ def design_reactions(
     pier_stiffness: ArrayLike,
     damping_ratio: ArrayLike,
     speed: ArrayLike,
-    level: str = "refined",
+    level: str = "short",
 ) -> DesignReactions:
     """Return the design reactions of many piers; arguments as in `peak_reactions`.
 
     Beside them `level`, as in `design_reaction`.
     """
-    one_of("level", level, LEVELS)
+    calculation_of(level)  # an error here, before anything is calculated
     shape, chunks = parameter_chunks(truck, pier_mass, pier_stiffness, damping_ratio, speed)
     size = math.prod(shape)
     found = np.empty((2, size))
     for part, parameters in chunks:
         values = design_values(parameters, level)
-        found[:, part] = values["engine"], values["cargo"]
+        found[:, part] = values["R1"], values["R2"]
     engine, cargo = found.reshape(2, *shape)
     return DesignReactions(engine=engine, cargo=cargo)

@@ -139,10 +139,10 @@ def _reactions(
     """Return the variations by name, None for those without a value; all in one go."""
     together = [collision for part in collisions.values() for collision in part.values()]
     trucks = [collision.truck for collision in together]
-    columns = np.array(
-        [(c.pier.mass, c.pier.stiffness, c.pier.damping_ratio, c.speed) for c in together]
-    ).T
-    peaks, design = peak_reactions(trucks, *columns), design_reactions(trucks, *columns)
+    piers = [(c.pier.mass, c.pier.stiffness, c.pier.damping_ratio, c.speed) for c in together]
+    mass, stiffness, ratio, speed = np.array(piers).T
+    peaks = peak_reactions(trucks, mass, stiffness, ratio, speed)
+    design = design_reactions(trucks, mass, stiffness, ratio, speed, level="long")
     found: dict[str, Variation | None] = {}
     first = 0
     for name, part in collisions.items():

@@ -1,16 +1,14 @@
 """Engine and cargo spectra: reaction against pier frequency, by three routes."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import one_of, positive, positive_array
+from pierimpact.checks import positive, positive_array
 from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.collision.simulate import peak_reactions
-from pierimpact.design.formulas import amplification
-from pierimpact.design.procedure import LEVELS, design_values
+from pierimpact.design.procedure import amplification, calculation_of, design_values
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.pier.equivalent import stiffness_at_frequency
 from pierimpact.vehicle.truck import Truck
@@ -62,7 +60,7 @@ def engine_spectrum(
     pier_mass: float,
     damping_ratio: float = 0.05,
     frequency: ArrayLike = FREQUENCIES,
-    level: str = "refined",
+    level: str = "short",
 ) -> Spectrum:
     """Return the engine's reaction against pier frequency.
 
@@ -78,15 +76,15 @@ def engine_spectrum(
         Damping ratio of the pier [-].
     frequency : array_like, shape (n,), optional
         Pier frequencies [Hz].
-    level : {"refined", "hand"}, optional
-        Level of the closed form.
+    level : {"short", "long"}, optional
+        Level of the closed form, as in `design_reaction`.
 
     Raises
     ------
     InputError
         When a value is out of range or the level unknown.
     """
-    return _spectrum("engine", truck, speed, pier_mass, damping_ratio, frequency, level)
+    return _spectrum(1, truck, speed, pier_mass, damping_ratio, frequency, level)
 
 
 def cargo_spectrum(
@@ -95,14 +93,14 @@ def cargo_spectrum(
     pier_mass: float,
     damping_ratio: float = 0.05,
     frequency: ArrayLike = FREQUENCIES,
-    level: str = "refined",
+    level: str = "short",
 ) -> Spectrum:
     """Return the cargo's reaction against pier frequency; arguments as in `engine_spectrum`."""
-    return _spectrum("cargo", truck, speed, pier_mass, damping_ratio, frequency, level)
+    return _spectrum(2, truck, speed, pier_mass, damping_ratio, frequency, level)
 
 
 def _spectrum(
-    which: str,
+    i: int,
     truck: Truck,
     speed: float,
     pier_mass: float,
@@ -110,33 +108,28 @@ def _spectrum(
     frequency: ArrayLike,
     level: str,
 ) -> Spectrum:
-    one_of("level", level, LEVELS)
+    """Return the spectrum of the engine, i = 1, or of the cargo, i = 2."""
+    calculation_of(level)  # an error here, before anything is calculated
     frequency = np.atleast_1d(positive_array("frequency", frequency))
     pier_mass = positive("pier_mass", pier_mass)
     stiffness = stiffness_at_frequency(pier_mass, frequency)
     peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)
     _, chunks = parameter_chunks(truck, pier_mass, stiffness, damping_ratio, speed)
-    two_degrees, closed_form = np.empty_like(frequency), np.empty_like(frequency)
+    found = np.empty((5, *frequency.shape))
     for part, parameters in chunks:
-        two_degrees[part] = design_values(parameters, "hand", exact_amplification)[which]
-        closed_form[part] = design_values(parameters, level)[which]
-    mass, spring = (
-        (truck.engine_mass, truck.engine_spring)
-        if which == "engine"
-        else (truck.body_mass, truck.body_spring)
-    )
-    ratios = (
-        2.0 * math.pi * frequency / math.sqrt(spring.stiffness / mass),
-        mass / pier_mass,
-        spring.restitution,
-        damping_ratio,
-    )
+        exact = design_values(parameters, "short", exact_amplification)
+        closed = design_values(parameters, level)
+        arguments = [exact[name] for name in (f"beta{i}", f"mu{i}", f"e{i}", "zeta")]
+        found[:, part] = (
+            exact[f"R{i}"], closed[f"R{i}"], arguments[0], exact[f"S{i}"], amplification(*arguments)
+        )  # fmt: skip
+    two_degrees, closed_form, ratio, exact_s, closed_s = found
     return Spectrum(
         frequency=frequency,
-        full_model=peaks.engine if which == "engine" else peaks.cargo,
+        full_model=peaks.engine if i == 1 else peaks.cargo,
         two_degrees=two_degrees,
         closed_form=closed_form,
-        frequency_ratio=ratios[0],
-        exact=exact_amplification(*ratios),
-        closed=amplification(*ratios),
+        frequency_ratio=ratio,
+        exact=exact_s,
+        closed=closed_s,
     )

@@ -2,7 +2,7 @@
 
 `python -m pierimpact.design.study` draws random collisions of the domain, solves each by
 the full model, refits the closed spectrum, and writes the outcome to `study.json` beside this
-file. The coefficients in `pierimpact.design.formulas` are those of the file, rounded.
+file. The coefficients in `pierimpact.design.procedure` are those of the file, rounded.
 """
 
 import json
@@ -18,10 +18,11 @@ from pierimpact.collision.groups import select, single
 from pierimpact.collision.parameters import Collision, Parameters, Spring, in_chunks
 from pierimpact.collision.regimes import STEEP, Law, State
 from pierimpact.collision.stepping import OUTCOMES, follow, follow_all
-from pierimpact.design import domain, formulas
+from pierimpact.design import domain, procedure
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.symbols import SYMBOLS
 from pierimpact.vehicle.truck import Truck
 
 Array = NDArray[np.float64]
@@ -35,11 +36,11 @@ SHOWN = 20
 OUTCOME_FILE = Path(__file__).with_name("study.json")
 #: Arguments of the closed spectrum that are fitted, and the values in use.
 COEFFICIENTS = {
-    "height": formulas.HUMP,
-    "end": formulas.HUMP_END,
-    "decline": formulas.HUMP_DECLINE,
-    "mass_effect": formulas.MASS_EFFECT,
-    "damping_effect": formulas.DAMPING_EFFECT,
+    "height": procedure.RESONANCE,
+    "end": procedure.RESONANCE_END,
+    "decline": procedure.RESONANCE_DECLINE,
+    "mass_effect": procedure.MASS_EFFECT,
+    "damping_effect": procedure.DAMPING_EFFECT,
 }
 #: Limits of the frequency bands that are reported apart [Hz].
 BANDS = (5.0, 7.0, 10.0, 15.0, 20.0, 40.0, 80.0, 150.0)
@@ -68,7 +69,7 @@ def full_model(parameters: Parameters) -> Reactions:
 def predictions(parameters: Parameters, level: str) -> Reactions:
     """Return the same reactions by the design procedure."""
     values = design_values(parameters, level)
-    engine, cargo = values["engine"], values["cargo"]
+    engine, cargo = values["R1"], values["R2"]
     return Reactions(engine, cargo, np.fmax(engine, cargo))
 
 
@@ -104,7 +105,7 @@ def assessment(
     parameters: Parameters, exact: Reactions, predicted: Reactions
 ) -> dict[str, dict[str, Summary]]:
     """Return summaries of predicted over CMSD by reaction and frequency band."""
-    frequency = domain.values(parameters)["pier frequency"]
+    frequency = domain.values(parameters)["fp"]
     found: dict[str, dict[str, Summary]] = {}
     for which in Reactions._fields:
         ratios = getattr(predicted, which) / getattr(exact, which)
@@ -136,7 +137,7 @@ def contact_speeds(parameters: Parameters) -> tuple[Array, Array]:
 
 
 def speed_errors(parameters: Parameters) -> dict[str, dict[str, Summary]]:
-    """Return how far approach speeds are off by level and body, over the speed of the truck.
+    """Return how far contact speeds are off by level and body, over the speed of the truck.
 
     Where the body meets the pier by the full model.
     """
@@ -145,8 +146,8 @@ def speed_errors(parameters: Parameters) -> dict[str, dict[str, Summary]]:
     for level in LEVELS:
         values = design_values(parameters, level)
         found[level] = {}
-        for body, speed in zip(("engine", "cargo"), exact, strict=True):
-            error = (values[f"{body}_speed"] - speed) / parameters.speed
+        for name, body, speed in zip(("v1", "v2"), ("engine", "cargo"), exact, strict=True):
+            error = (values[name] - speed) / parameters.speed
             error = error[np.isfinite(error)]
             found[level][body] = {
                 "cases": len(error),
@@ -160,18 +161,11 @@ def speed_errors(parameters: Parameters) -> dict[str, dict[str, Summary]]:
 
 def spectrum_arguments(parameters: Parameters) -> tuple[Array, Array, Array, Array]:
     """Return β, μ, e and ζ of every engine, followed by those of every cargo."""
-    omega = np.sqrt(parameters.pier_stiffness / parameters.pier_mass)
-    zeta = domain.values(parameters)["damping ratio"]
-    pairs = [
-        (
-            omega / np.sqrt(spring.stiffness / spring.mass),
-            spring.mass / parameters.pier_mass,
-            np.sqrt(spring.stiffness / spring.unloading_stiffness),
-            zeta,
-        )
-        for spring in (parameters.engine, parameters.body)
-    ]
-    beta, mu, e, zeta = (np.concatenate(pair) for pair in zip(*pairs, strict=True))
+    values = design_values(parameters)
+    beta, mu, e, zeta = (
+        np.concatenate([values[name.format(i)] for i in (1, 2)])
+        for name in ("beta{}", "mu{}", "e{}", "zeta")
+    )
     return beta, mu, e, zeta
 
 
@@ -183,7 +177,7 @@ def fit(arguments: tuple[Array, Array, Array, Array], exact: Array) -> dict[str,
 
     def residual(coefficients: Array) -> Array:
         named = dict(zip(COEFFICIENTS, coefficients, strict=True))
-        closed = formulas.joined(beta, mu, e, formulas.hump(beta, mu, zeta, **named))
+        closed = procedure.combined(beta, mu, e, procedure.resonance(beta, mu, zeta, **named))
         error = np.log(closed / exact)
         return np.asarray(np.where(error < 0.0, PRUDENCE * error, error))
 
@@ -196,13 +190,13 @@ def study(size: int = SIZE, seed: int = SEED) -> dict[str, Any]:
     parameters = domain.sample(size, seed)
     arguments = spectrum_arguments(parameters)
     exact = exact_amplification(*arguments)
-    closed = formulas.amplification(*arguments)
+    closed = procedure.amplification(*arguments)
     reactions = full_model(parameters)
     return {
         "seed": seed,
         "size": size,
         "domain": {
-            name: f"{low:g} to {high:g} {unit}"
+            SYMBOLS[name].meaning: f"{low:g} to {high:g} {unit}"
             for name, (low, high, unit, _) in domain.DOMAIN.items()
         },
         "fitted": fit(arguments, exact),
@@ -219,7 +213,7 @@ def study(size: int = SIZE, seed: int = SEED) -> dict[str, Any]:
             level: (predictions(parameters, level).governing / reactions.governing)[:SHOWN].tolist()
             for level in LEVELS
         },
-        "error of the approach speed over the truck's": speed_errors(
+        "error of the contact speed over the truck's": speed_errors(
             select(parameters, slice(0, FOLLOWED))
         ),
     }

@@ -2,20 +2,34 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, not_negative, number, one_of, positive
-from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.handcalc import Calculation
+from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass
 from pierimpact.pier.member_forces import MemberForces
 from pierimpact.pier.sections import Section
+from pierimpact.pier.unit_force import BY_ENDS
 
-# What is not known beforehand at each kind of end, among its deflection (0), rotation (1),
-# moment (2) and shear (3). The other two are zero.
-_UNKNOWNS = {"fixed": [2, 3], "pinned": [1, 3], "free": [0, 1]}
-END_CONDITIONS = tuple(_UNKNOWNS)
+Real: TypeAlias = Any  # a float, or an array
+
+END_CONDITIONS = ("fixed", "pinned", "free")
+
+
+@Calculation
+def rigidities(
+    E: Real, nu: Real, rho: Real, A: Real, I: Real, kappa: Real
+) -> dict[str, Real]:  # fmt: skip
+    """The rigidities of a section, and its mass per length."""
+    EI = E * I
+    G = E / (2 * (1 + nu))
+    GA = kappa * G * A
+    mbar = rho * A
+    return locals()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,25 +89,28 @@ class PierColumn:
                 f"{self.base!r} and top {self.top!r}: the column would be a mechanism"
             )
 
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """Dimensions, material, rigidities and mass per length, by symbol."""
+        section = self.section.values
+        sizes = {name: section[name] for name in ("A", "I", "kappa")}
+        material = {"E": self.elastic_modulus, "nu": self.poisson_ratio, "rho": self.density}
+        return {**section, **rigidities(**material, **sizes), "H": self.height}
+
     @property
     def flexural_rigidity(self) -> float:
         """Flexural rigidity EI [N m²]."""
-        return self.elastic_modulus * self.section.second_moment
-
-    @property
-    def shear_modulus(self) -> float:
-        """Shear modulus G = E / 2(1 + ν) [Pa]."""
-        return self.elastic_modulus / (2.0 * (1.0 + self.poisson_ratio))
+        return self.values["EI"]
 
     @property
     def shear_rigidity(self) -> float:
         """Shear rigidity κGA [N]."""
-        return self.shear_modulus * self.section.shear_area
+        return self.values["GA"]
 
     @property
     def mass_per_length(self) -> float:
         """Mass per unit length m̄ = ρA [kg/m]."""
-        return self.density * self.section.area
+        return self.values["mbar"]
 
     def struck_at(self, impact_height: float) -> "StruckColumn":
         """Return the column under a unit force at `impact_height` [m]."""
@@ -114,10 +131,7 @@ class PierColumn:
         EquivalentPier
             Mass m_p, stiffness k_p and damping ratio ζ.
         """
-        struck = self.struck_at(impact_height)
-        return EquivalentPier(
-            mass=struck.mass, stiffness=struck.stiffness, damping_ratio=damping_ratio
-        )
+        return self.struck_at(impact_height).equivalent(damping_ratio)
 
     def deflection(
         self, z: ArrayLike, impact_height: float, force: float = 1.0
@@ -175,10 +189,7 @@ class PierColumn:
 class StruckColumn:
     """A column under a unit force at the impact height z_n, and what Eqs 1–3 make of it.
 
-    Each of the two parts, below and above the impact, is seen from its own end: with the
-    distance s from that end both obey the same equations (`_carry`), whatever the end. Each
-    resists the deflection and rotation of the joint at z_n with its own stiffness; the two
-    stiffnesses add up, and carry the unit force. Derived here from beam theory.
+    The equations are in `pierimpact.pier.unit_force`.
 
     Parameters
     ----------
@@ -210,54 +221,28 @@ class StruckColumn:
             )
 
     @cached_property
-    def _lengths(self) -> tuple[float, float]:
-        """Lengths of the parts below and above the impact, over H [-]."""
-        height = self.column.height
-        return self.impact_height / height, (height - self.impact_height) / height
-
-    @cached_property
-    def _shear_flexibility(self) -> float:
-        """Shear flexibility EI / (κGA H²) beside that of flexure [-]."""
-        column = self.column
-        return column.flexural_rigidity / (column.shear_rigidity * column.height**2)
-
-    @cached_property
-    def _end_states(self) -> NDArray[np.float64]:
-        """Deflection, rotation, moment and shear at base and top, shape (2, 4) [-].
-
-        Each end's are reckoned along its own distance s, in the units H³/EI, H²/EI, H and 1 per
-        unit force.
-        """
-        unknowns = [_UNKNOWNS[self.column.base], _UNKNOWNS[self.column.top]]
-        below, above = (
-            _carry(length, self._shear_flexibility)[:, columns]
-            for length, columns in zip(self._lengths, unknowns, strict=True)
-        )
-        # Seen from the base, the part above turns, and is bent by the joint, the other way.
-        above *= np.array([[1.0], [-1.0], [-1.0], [1.0]])
-        # Each end's two unknowns follow from the joint's deflection and rotation, and so do the
-        # part's moment and shear there. Together the parts balance no moment and a unit force.
-        from_joint = [np.linalg.inv(part[:2]) for part in (below, above)]
-        stiffness = below[2:] @ from_joint[0] + above[2:] @ from_joint[1]
-        joint = np.linalg.solve(stiffness, [0.0, 1.0])
-        states = np.zeros((2, 4))
-        for end in (0, 1):
-            states[end, unknowns[end]] = from_joint[end] @ joint
-        return states
+    def values(self) -> dict[str, float]:
+        """Every value on the way from the column to its stiffness and shape, by symbol."""
+        column, z = self.column, self.impact_height
+        calculation = BY_ENDS[column.base, column.top]
+        rigidity = {name: column.values[name] for name in ("H", "EI", "GA")}
+        found = column.values | calculation(z=z, y=column.height - z, **rigidity)
+        return found | equivalent_mass(**{name: found[name] for name in equivalent_mass.given})
 
     def member_forces(self, reaction: float) -> MemberForces:
         """Support reactions, shear and moment under the static force R [N] at z_n."""
         reaction = number("reaction", reaction)
-        height = self.column.height
-        (_, _, base_moment, base_force), (_, _, top_moment, top_force) = self._end_states.tolist()
+        base_force, top_force, base_moment, top_moment = (
+            reaction * self.values[name] for name in ("Rb", "Rt", "Mb", "Mt")
+        )
         return MemberForces(
             reaction=reaction,
-            height=height,
+            height=self.column.height,
             impact_height=self.impact_height,
-            base_force=reaction * base_force,
-            top_force=reaction * top_force,
-            base_moment=reaction * height * base_moment,
-            top_moment=reaction * height * top_moment,
+            base_force=base_force,
+            top_force=top_force,
+            base_moment=base_moment,
+            top_moment=top_moment,
         )
 
     @cached_property
@@ -267,50 +252,33 @@ class StruckColumn:
 
     @property
     def flexural_deflection(self) -> float:
-        """Flexural part of x(z_n), the integral of M²/EI over the column [m/N].
-
-        [z_n (M_b² + M_b M_n + M_n²) + (H − z_n)(M_n² + M_n M_t + M_t²)] / 3EI, with the moments
-        under the unit force: the supports do no work, so x(z_n) is twice the strain energy.
-        """
-        forces = self.unit_forces
-        base, impact, top = forces.base_moment, forces.impact_moment, forces.top_moment
-        below = self.impact_height * (base**2 + base * impact + impact**2)
-        above = (self.column.height - self.impact_height) * (impact**2 + impact * top + top**2)
-        return (below + above) / (3.0 * self.column.flexural_rigidity)
+        """Flexural part of x(z_n), the integral of M²/EI over the column [m/N]."""
+        return self.values["xfb"] + self.values["xft"]
 
     @property
     def shear_deflection(self) -> float:
-        """Shear part of x(z_n): [z_n R_b² + (H − z_n) R_t²] / κGA [m/N].
-
-        The integral of V²/κGA over the column, with the support forces under the unit force.
-        """
-        forces = self.unit_forces
-        below = self.impact_height * forces.base_force**2
-        above = (self.column.height - self.impact_height) * forces.top_force**2
-        return (below + above) / self.column.shear_rigidity
+        """Shear part of x(z_n), the integral of V²/κGA over the column [m/N]."""
+        return self.values["xs"]
 
     @property
     def impact_deflection(self) -> float:
         """Deflection x(z_n) under the unit force, of flexure and shear [m/N]."""
-        return self.flexural_deflection + self.shear_deflection
+        return self.values["xn"]
 
     @property
     def stiffness(self) -> float:
         """Stiffness k_p = 1/x(z_n) (Eq. 3 of the source paper) [N/m]."""
-        return 1.0 / self.impact_deflection
+        return self.values["kp"]
 
-    @cached_property
+    @property
     def shape_coefficients(self) -> NDArray[np.float64]:
         """Coefficients of φ = c0 + c1 s + c2 s² + c3 s³ below and above, shape (2, 4) [-].
 
         s is the distance over H: from the base in the first row, from the top in the second.
         """
-        deflection, rotation, moment, shear = self._end_states.T
-        slope = rotation + self._shear_flexibility * shear
-        coefficients = np.stack([deflection, slope, -moment / 2.0, -shear / 6.0], axis=1)
-        unit = self.column.height**3 / self.column.flexural_rigidity
-        scaled: NDArray[np.float64] = coefficients * (unit / self.impact_deflection)
-        return scaled
+        return np.array(
+            [[self.values.get(f"c{end}{power}", 0.0) for power in range(4)] for end in "bt"]
+        )
 
     def shape(self, z: ArrayLike) -> NDArray[np.float64]:
         """Shape function φ(z) = x(z)/x(z_n) (Eq. 2) at heights `z` [m], in the shape of `z` [-]."""
@@ -326,41 +294,13 @@ class StruckColumn:
     @property
     def shape_integral(self) -> float:
         """Integral of φ² over the column, of each part's polynomial exactly [m]."""
-        integral = 0.0
-        for coefficients, length in zip(self.shape_coefficients, self._lengths, strict=True):
-            square = polynomial.polymul(coefficients, coefficients)
-            integral += float(polynomial.polyval(length, polynomial.polyint(square)))
-        return self.column.height * integral
+        return self.values["phi2"]
 
     @property
     def mass(self) -> float:
         """Equivalent mass m_p = m̄ ∫ φ² dz (Eq. 1 of the source paper) [kg]."""
-        return self.column.mass_per_length * self.shape_integral
+        return self.values["mp"]
 
-
-def _carry(length: float, shear_flexibility: float) -> NDArray[np.float64]:
-    """Matrix that carries deflection, rotation, moment and shear from an end to a distance s.
-
-    Timoshenko's beam without load between, in the units of `StruckColumn._end_states`:
-    V' = 0, M' = V, θ' = −M, x' = θ + EI/(κGA H²) V.
-
-    Parameters
-    ----------
-    length : float
-        Distance s from the end, over H [-].
-    shear_flexibility : float
-        EI / (κGA H²) [-].
-
-    Returns
-    -------
-    ndarray, shape (4, 4)
-    """
-    s = length
-    return np.array(
-        [
-            [1.0, s, -(s**2) / 2.0, shear_flexibility * s - s**3 / 6.0],
-            [0.0, 1.0, -s, -(s**2) / 2.0],
-            [0.0, 0.0, 1.0, s],
-            [0.0, 0.0, 0.0, 1.0],
-        ]
-    )
+    def equivalent(self, damping_ratio: float = 0.05) -> EquivalentPier:
+        """Return the pier as one degree of freedom, with a damping ratio ζ [-]."""
+        return EquivalentPier(mass=self.mass, stiffness=self.stiffness, damping_ratio=damping_ratio)

@@ -1,29 +1,46 @@
 """The pier as one degree of freedom at the nominal impact height."""
 
-import math
 from dataclasses import dataclass
+from math import pi
 from typing import Any, TypeAlias
 
-import numpy as np
+from numpy import sqrt
 
 from pierimpact.checks import InputError, not_negative, positive
+from pierimpact.handcalc import Calculation
 
 Real: TypeAlias = Any  # a float, or an array of any shape
 
 
 def natural_frequency(mass: Real, stiffness: Real) -> Real:
     """Return the undamped frequency √(k/m)/2π of a mass [kg] on a spring [N/m] [Hz]."""
-    return np.sqrt(stiffness / mass) / (2.0 * math.pi)
+    return 1 / (2 * pi) * sqrt(stiffness / mass)
 
 
 def stiffness_at_frequency(mass: Real, frequency: Real) -> Real:
     """Return the stiffness m (2π f)² on which a mass [kg] has that frequency [Hz] [N/m]."""
-    return mass * (2.0 * math.pi * frequency) ** 2
+    return mass * (2.0 * pi * frequency) ** 2
 
 
 def damping_coefficient(mass: Real, stiffness: Real, damping_ratio: Real) -> Real:
     """Return c = 2 ζ √(k m) for a mass [kg], a stiffness [N/m] and a damping ratio [N s/m]."""
-    return 2.0 * damping_ratio * np.sqrt(stiffness * mass)
+    return 2 * damping_ratio * sqrt(stiffness * mass)
+
+
+@Calculation
+def equivalent_mass(mbar: Real, phi2b: Real, phi2t: Real) -> dict[str, Real]:
+    """Mass of the pier as one degree of freedom."""
+    phi2 = phi2b + phi2t
+    mp = mbar * phi2  # Eq. 1 of the source paper
+    return locals()
+
+
+@Calculation
+def vibration(kp: Real, mp: Real, zeta: Real) -> dict[str, Real]:
+    """Frequency and damping of the pier as one degree of freedom."""
+    fp = natural_frequency(mp, kp)
+    cp = damping_coefficient(mp, kp, zeta)
+    return locals()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,7 +86,7 @@ class EquivalentPier:
     @property
     def circular_frequency(self) -> float:
         """Undamped circular frequency ω_p = √(k_p/m_p) [rad/s]."""
-        return math.sqrt(self.stiffness / self.mass)
+        return float(sqrt(self.stiffness / self.mass))
 
     @property
     def frequency(self) -> float:

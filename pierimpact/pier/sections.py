@@ -1,21 +1,71 @@
 """Cross-sections of the pier: area, second moment of area and shear area."""
 
-import math
 from dataclasses import dataclass
+from math import pi
+from typing import Any, ClassVar, TypeAlias
 
 from pierimpact.checks import InputError, positive
+from pierimpact.handcalc import Calculation
+
+Real: TypeAlias = Any  # a float, or an array
 
 
-def _shear_coefficient(value: float) -> float:
-    """Return `value` as a shear coefficient κ, above 0 and at most 1."""
-    coefficient = positive("shear_coefficient", value)
-    if coefficient > 1.0:
-        raise InputError(f"shear_coefficient must be at most 1, got {coefficient:g}")
-    return coefficient
+@Calculation
+def circle(D: Real) -> dict[str, Real]:
+    """A solid circle."""
+    A = pi * D**2 / 4
+    I = pi * D**4 / 64
+    return locals()
+
+
+@Calculation
+def rectangle(b: Real, h: Real) -> dict[str, Real]:
+    """A solid rectangle, for bending in the direction of its depth h."""
+    A = b * h
+    I = b * h**3 / 12
+    return locals()
 
 
 @dataclass(frozen=True, kw_only=True)
-class CircularSection:
+class _Section:
+    """What all sections have in common: dimensions that are positive, κ that is at most 1."""
+
+    #: The section's equations.
+    calculation: ClassVar[Calculation]
+    #: The symbol of each of its dimensions.
+    dimensions: ClassVar[dict[str, str]]
+    shear_coefficient: float
+
+    def __post_init__(self) -> None:
+        for name in (*self.dimensions, "shear_coefficient"):
+            object.__setattr__(self, name, positive(name, getattr(self, name)))
+        if self.shear_coefficient > 1.0:
+            raise InputError(f"shear_coefficient must be at most 1, got {self.shear_coefficient:g}")
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Dimensions, shear coefficient, area and second moment of area, by symbol."""
+        sizes = {symbol: getattr(self, name) for name, symbol in self.dimensions.items()}
+        return self.calculation(**sizes) | {"kappa": self.shear_coefficient}
+
+    @property
+    def area(self) -> float:
+        """Area A [m²]."""
+        return self.values["A"]
+
+    @property
+    def second_moment(self) -> float:
+        """Second moment of area I for bending in the direction of travel [m⁴]."""
+        return self.values["I"]
+
+    @property
+    def shear_area(self) -> float:
+        """Shear area κA [m²]."""
+        return self.shear_coefficient * self.area
+
+
+@dataclass(frozen=True, kw_only=True)
+class CircularSection(_Section):
     """A solid circle.
 
     Parameters
@@ -32,31 +82,14 @@ class CircularSection:
         When a value is not positive, or κ exceeds 1.
     """
 
+    calculation = circle
+    dimensions: ClassVar = {"diameter": "D"}
     diameter: float
     shear_coefficient: float = 0.9
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "diameter", positive("diameter", self.diameter))
-        object.__setattr__(self, "shear_coefficient", _shear_coefficient(self.shear_coefficient))
-
-    @property
-    def area(self) -> float:
-        """Area A = π D²/4 [m²]."""
-        return math.pi * self.diameter**2 / 4.0
-
-    @property
-    def second_moment(self) -> float:
-        """Second moment of area I = π D⁴/64 [m⁴]."""
-        return math.pi * self.diameter**4 / 64.0
-
-    @property
-    def shear_area(self) -> float:
-        """Shear area κA [m²]."""
-        return self.shear_coefficient * self.area
-
 
 @dataclass(frozen=True, kw_only=True)
-class RectangularSection:
+class RectangularSection(_Section):
     """A solid rectangle struck square on one face.
 
     Parameters
@@ -66,8 +99,7 @@ class RectangularSection:
     depth : float
         Side h along the direction of travel [m].
     shear_coefficient : float, optional
-        Share κ of the area that carries shear, at most 1 [-]. The default 5/6 makes the strain
-        energy of a uniform shear on κA equal to that of the parabolic shear stress of beam theory.
+        As of the circle, with the default 5/6.
 
     Raises
     ------
@@ -75,29 +107,11 @@ class RectangularSection:
         When a value is not positive, or κ exceeds 1.
     """
 
+    calculation = rectangle
+    dimensions: ClassVar = {"width": "b", "depth": "h"}
     width: float
     depth: float
     shear_coefficient: float = 5.0 / 6.0
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "width", positive("width", self.width))
-        object.__setattr__(self, "depth", positive("depth", self.depth))
-        object.__setattr__(self, "shear_coefficient", _shear_coefficient(self.shear_coefficient))
-
-    @property
-    def area(self) -> float:
-        """Area A = b h [m²]."""
-        return self.width * self.depth
-
-    @property
-    def second_moment(self) -> float:
-        """Second moment of area I = b h³/12 for bending in the direction of travel [m⁴]."""
-        return self.width * self.depth**3 / 12.0
-
-    @property
-    def shear_area(self) -> float:
-        """Shear area κA [m²]."""
-        return self.shear_coefficient * self.area
 
 
 Section = CircularSection | RectangularSection

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.design.formulas import amplification
+from pierimpact.design.procedure import amplification
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.design.spectra import Spectrum
 from pierimpact.design.study import Reactions

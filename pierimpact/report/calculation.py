@@ -33,7 +33,7 @@ class Calculation:
     history : CollisionHistory
         The collision by the full model.
     design : DesignReaction
-        The design procedure in full, on its refined level.
+        The design procedure at its long level.
     trial : CollisionHistory or None
         The collision at the lower nominal height, where the height was left to the rule.
     """
@@ -61,8 +61,8 @@ class Calculation:
         return max(self.design.reaction, self.governing_peak.reaction)
 
     @property
-    def decisive(self) -> str:
-        """Which of the two the result is from."""
+    def governing_method(self) -> str:
+        """The method that the result is of: "design procedure" or "full model"."""
         return "design procedure" if self.ratio >= 1.0 else "full model"
 
     @property
@@ -78,9 +78,9 @@ class Calculation:
         return self.design.reaction / self.governing_peak.reaction
 
     @cached_property
-    def hand(self) -> DesignReaction:
-        """The design procedure on its hand level."""
-        return design_reaction(self.case.truck, self.pier, self.case.inputs.speed, "hand")
+    def short(self) -> DesignReaction:
+        """The design procedure at its short level."""
+        return design_reaction(self.case.truck, self.pier, self.case.inputs.speed, "short")
 
     @cached_property
     def sensitivity(self) -> Sensitivity:
@@ -127,7 +127,7 @@ def calculate(case: Case) -> Calculation:
         struck=case.column.struck_at(height),
         pier=pier,
         history=history,
-        design=design_reaction(case.truck, pier, case.inputs.speed),
+        design=design_reaction(case.truck, pier, case.inputs.speed, "long"),
         trial=trial,
     )
 

@@ -12,8 +12,8 @@ from pierimpact.report.calculation import Calculation
 from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph, TitleBlock
 from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table
-from pierimpact.report.sheet.cautions import limits_of_the_study
 from pierimpact.report.sheet.inputs import STATUS_WORDS
+from pierimpact.report.sheet.summary import limits_of_the_study
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 
 NONE = "none"  # instead of a peak that is not there

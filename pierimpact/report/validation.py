@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import Parameters
 from pierimpact.design import domain
-from pierimpact.design.formulas import amplification
-from pierimpact.design.procedure import LEVELS
+from pierimpact.design.procedure import LEVELS, amplification
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
 from pierimpact.design.study import (
@@ -33,6 +32,7 @@ from pierimpact.plots import validation as spectrum_figures
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Column, Figure, Table
+from pierimpact.symbols import SYMBOLS
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
 
@@ -97,7 +97,7 @@ class Validation:
                 Column(heading="Unit"),
             ],
             rows=[
-                [name.capitalize(), f"{low:g}", f"{high:g}", unit]
+                [SYMBOLS[name].heading, f"{low:g}", f"{high:g}", unit]
                 for name, (low, high, unit, _) in domain.DOMAIN.items()
             ],
         )
@@ -112,7 +112,7 @@ class Validation:
             alt=f"Scatter plot of {self.size} collisions on three panels, engine, cargo and "
             f"governing. {_in_words(ratios)}",
             svg=spectrum_figures.draw_scatter(
-                domain.values(self._case)["pier frequency"],
+                domain.values(self._case)["fp"],
                 self._exact,
                 self._predicted[level],
                 "SI",
@@ -127,7 +127,7 @@ class Validation:
             alt="Ratio against pier frequency on three panels, engine, cargo and governing. "
             + _in_words(self._governing(level)),
             svg=spectrum_figures.draw_ratios(
-                domain.values(self._case)["pier frequency"], self._exact, self._predicted[level]
+                domain.values(self._case)["fp"], self._exact, self._predicted[level]
             ),
         )
 
@@ -217,7 +217,7 @@ class Validation:
         few = select(self._case, slice(0, _FEW))
         random, size = np.random.default_rng(self.seed), len(few.speed)
         found = domain.values(few)
-        frequency, damping = found["pier frequency"], found["damping ratio"]
+        frequency, damping = found["fp"], found["zeta"]
         quarter = few.body._replace(plateau_length=0.25 * few.body.plateau_length)
 
         def between(low: float, high: float) -> Array:

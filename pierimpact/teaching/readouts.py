@@ -105,14 +105,14 @@ def amplification_words(scenario: Scenario, values: dict[str, float]) -> str:
     history = scenario.history
     peaks = {"engine": history.engine_peak, "cargo": history.cargo_peak}
     words = []
-    for body, peak in peaks.items():
-        reaction = values[body]
+    for i, (body, peak) in enumerate(peaks.items(), 1):
+        reaction = values[f"R{i}"]
         if math.isnan(reaction) or peak is None:
             words.append(f"The {body} makes no spike.")
             continue
         ratio = reaction / peak.reaction
         words.append(
-            f"S of the {body} is {values[f'{body}_S']:.3f}, and gives {ratio:.2f} of the full "
+            f"S of the {body} is {values[f'S{i}']:.3f}, and gives {ratio:.2f} of the full "
             "model’s peak."
         )
     return " ".join(words)
@@ -123,14 +123,14 @@ def amplification_readout(scenario: Scenario, values: dict[str, float]) -> str:
     history = scenario.history
     peaks = {"engine": history.engine_peak, "cargo": history.cargo_peak}
     rows = ""
-    for body, colour in BODIES.items():
-        reaction, peak = values[body], peaks[body]
+    for i, (body, colour) in enumerate(BODIES.items(), 1):
+        reaction, peak = values[f"R{i}"], peaks[body]
         cells = [
-            str(printed(values[f"{body}_speed"], "speed", "SI")),
-            f"{values[f'{body}_mu']:.3f}",
-            f"{values[f'{body}_e']:.3f}",
-            f"{values[f'{body}_beta']:.3f}",
-            f"{values[f'{body}_S']:.3f}",
+            str(printed(values[f"v{i}"], "speed", "SI")),
+            f"{values[f'mu{i}']:.3f}",
+            f"{values[f'e{i}']:.3f}",
+            f"{values[f'beta{i}']:.3f}",
+            f"{values[f'S{i}']:.3f}",
             "none" if math.isnan(reaction) else force(reaction),
             "none" if peak is None else force(peak.reaction),
         ]

@@ -61,11 +61,11 @@ def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -
     peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)
     _, chunks = parameter_chunks(truck, pier_mass, stiffness, damping_ratio, speed)
     _, parameters = next(chunks)  # fewer piers than one chunk holds
-    reduced = design_values(parameters, "hand")
+    reduced = design_values(parameters, "short")
     return Curves(
         frequency=FREQUENCIES,
         full={"engine": peaks.engine, "cargo": peaks.cargo},
-        reduced={body: np.asarray(reduced[body]) for body in ("engine", "cargo")},
+        reduced={"engine": np.asarray(reduced["R1"]), "cargo": np.asarray(reduced["R2"])},
     )
 
 

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.simulate import peak_reactions
 from pierimpact.design.codes import code_forces
-from pierimpact.design.formulas import amplification
-from pierimpact.design.procedure import LEVELS, design_values
+from pierimpact.design.procedure import LEVELS, amplification, design_values
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.pier.column import PierColumn
 from pierimpact.plots.amplification import Amplification
@@ -64,14 +63,14 @@ def by_height(column: PierColumn) -> ByHeight:
 
 
 def by_hand(scenario: Scenario) -> dict[str, float]:
-    """Return the hand procedure's values, with the exact amplification of either body."""
+    """Return the short level's values, with the exact amplification of either body."""
     parameters = scenario.collision.parameters
-    closed = design_values(parameters, "hand")
-    names = [[f"{body}_{name}" for body in BODIES] for name in ("beta", "mu", "e")]
+    closed = design_values(parameters, "short")
+    names = [[f"{name}{i}" for i in (1, 2)] for name in ("beta", "mu", "e")]
     beta, mu, e = ([float(closed[name]) for name in pair] for pair in names)
     exact = exact_amplification(beta, mu, e, scenario.pier.damping_ratio)
     known = dict(zip(beta, exact.tolist(), strict=True))
-    values = design_values(parameters, "hand", lambda b, *_: known[float(b)])
+    values = design_values(parameters, "short", lambda b, *_: known[float(b)])
     return {name: float(value) for name, value in values.items()}
 
 

@@ -88,11 +88,11 @@ def reduction() -> Explorer:
 
     def contents(scenario: Scenario) -> Contents:
         values = theory.by_hand(scenario)
-        mu, e = ((values[f"engine_{name}"], values[f"cargo_{name}"]) for name in ("mu", "e"))
+        mu, e = ((values[f"{name}1"], values[f"{name}2"]) for name in ("mu", "e"))
         curves = theory.amplifications(mu, e, scenario.damping_ratio)
         return {"readout": (readouts.amplification_readout(scenario, values),)} | {
-            body: ((curves[body],), (curves[body], values[f"{body}_beta"], values[f"{body}_S"]))
-            for body in BODIES
+            body: ((curves[body],), (curves[body], values[f"beta{i}"], values[f"S{i}"]))
+            for i, body in enumerate(BODIES, 1)
         }
 
     return Explorer(

@@ -130,7 +130,7 @@ class Equation:
         Left-hand side, in LaTeX.
     lines : sequence of str
         Right-hand sides in LaTeX, one below the other.
-    source : str, optional
+    source : str or Tex or tuple, optional
         Where the formula is from.
     """
 
@@ -138,7 +138,7 @@ class Equation:
     name: Inline
     symbol: str
     lines: Sequence[str]
-    source: str = ""
+    source: Inline = ""
 
     @property
     def long(self) -> bool:
@@ -170,7 +170,7 @@ class Steps(Block):
         """Return the block as HTML."""
         rows = ""
         for step in self.equations:
-            source = f"<small>{html.escape(step.source)}</small>" if step.source else ""
+            source = f"<small>{to_html(step.source)}</small>" if step.source else ""
             long = " long" if step.long else ""
             rows += (
                 f'<div class="step{long}" id="{step.label}"><div>{to_html(step.name)}{source}</div>'
@@ -182,7 +182,7 @@ class Steps(Block):
     def to_typst(self) -> str:
         """Return the block as Typst markup."""
         return "\n".join(
-            f"#step([{to_typst(step.name)}], {typst_string(step.source)}, "
+            f"#step([{to_typst(step.name)}], [{to_typst(step.source)}], "
             f"[#texblock({typst_string(step.tex)}) <{step.label}>])"
             for step in self.equations
         )

@@ -1,99 +1,89 @@
-r"""Calculation steps from formulas: symbol = formula = formula with values = result.
-
-A formula is LaTeX with names in angle brackets: `\frac{1}{<X>}` prints once with their symbols
-and once with their values. A product of them is written with `<x>`, a cross between values only.
-"""
+"""Steps of a calculation as numbered equations: symbol = equation = values put in = result."""
 
 import re
-from collections.abc import Mapping
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
 
+from pierimpact.handcalc import Step
 from pierimpact.report.document.markup import in_tex, inline, number_in_tex, tex_length
 from pierimpact.report.document.numbered import CONTINUED, Equation
-from pierimpact.units import printed
+from pierimpact.symbols import SYMBOLS
+from pierimpact.units import CONSISTENT, Printed, printed
 
 _LONG = 75  # characters on a line
-
-
-class Value(NamedTuple):
-    """A value as steps print it."""
-
-    symbol: str  #: in LaTeX
-    value: float  #: in SI units
-    quantity: str  #: its kind
-    given: bool = False  #: whether it is an input, and prints without zeros that nobody typed
+_IN_SYMBOLS = {name: symbol.latex for name, symbol in SYMBOLS.items()}
 
 
 class StepWriter:
-    """Writes steps from formulas and values.
+    """Writes the steps of a calculation with the values of one case.
 
     Parameters
     ----------
-    values : mapping of str to Value
-        Values by the names that formulas call them.
+    values : mapping of str to float
+        Values by the names of their symbols [SI].
     system : {"SI", "US"}
         Units to print in.
-    prefix : str, optional
-        What the anchors of the steps begin with.
+    given : sequence of str
+        Names of inputs, which print without zeros that nobody typed.
+    units : bool, optional
+        Whether the values put in carry their units; if not, they are in units that go together.
+    consistent : bool, optional
+        Whether forces, masses, lengths and times are in units in which a force is a mass times an
+        acceleration.
+    quantities : mapping of str to str, optional
+        Kinds of quantity to print in, for names where it is not that of the table of symbols.
     """
 
-    def __init__(self, values: Mapping[str, Value], system: str, prefix: str = "eq-") -> None:
-        self.values, self.system, self.prefix = values, system, prefix
+    def __init__(
+        self,
+        values: Mapping[str, float],
+        system: str,
+        given: Sequence[str] = (),
+        *,
+        units: bool = True,
+        consistent: bool = False,
+        quantities: Mapping[str, str] | None = None,
+    ) -> None:
+        self.values, self.system, self.given = values, system, given
+        self.units, self.consistent, self.quantities = units, consistent, quantities or {}
 
-    def step(
-        self, name: str, result: str, formula: str, *, units: bool = True, source: str = ""
-    ) -> Equation:
-        """Return the step that gives the value called `result`.
+    def shown(self, name: str) -> Printed:
+        """Return a value as it prints."""
+        quantity = self.quantities.get(name, SYMBOLS[name].quantity)
+        quantity = CONSISTENT.get(quantity, quantity) if self.consistent else quantity
+        return printed(self.values[name], quantity, self.system, given=name in self.given)
 
-        Parameters
-        ----------
-        name : str
-            What is calculated.
-        result : str
-            Name of the value.
-        formula : str
-            Formula with names in angle brackets.
-        units : bool, optional
-            Whether the values put in carry their units; if not, they are in the units of length
-            and force of the results.
-        source : str, optional
-            Where the formula is from.
-        """
-        symbol, formula_in_symbols = self.values[result].symbol, self._with_symbols(formula)
-        *values, last = _broken(self._with_values(formula, units))
-        shown = self._in_tex(result, units=True)
-        fits = tex_length(last) + tex_length(shown) < _LONG
-        lines = [*values, f"{last} = {shown}"] if fits else [*values, last, shown]
-        if formula_in_symbols == formula:  # nothing to put in
+    def equation(self, step: Step) -> Equation:
+        """Return a step as a numbered equation, its remark and conditions beside it."""
+        symbol, formula = SYMBOLS[step.name], in_symbols(step)
+        put_in = {
+            name: in_tex(self.shown(name)) if self.units else number_in_tex(self.shown(name))
+            for name in step.names
+        }
+        result = in_tex(self.shown(step.name))
+        if not put_in:
             lines = [formula]
-        elif re.fullmatch(r"<\w+>", formula):  # the value put in is the result
-            lines = [f"{formula_in_symbols} = {shown}"]
-        elif re.sub(r"\\,| ", "", formula_in_symbols) != symbol.replace(" ", ""):
-            lines = [*_broken(formula_in_symbols), *lines]
-        label = f"{self.prefix}{result}"
-        return Equation(label=label, name=inline(name), symbol=symbol, lines=lines, source=source)
+        elif formula in _IN_SYMBOLS.values():  # the value put in is the result
+            lines = [f"{formula} = {result}"]
+        else:
+            *values, last = _broken(step.latex(put_in, r"\times"))
+            fits = tex_length(last) + tex_length(result) < _LONG
+            lines = [*values, f"{last} = {result}"] if fits else [*values, last, result]
+            if re.sub(r"\\,| ", "", formula) != symbol.latex.replace(" ", ""):
+                lines = [*_broken(formula), *lines]
+        because = " and ".join(f"${c.latex(_IN_SYMBOLS)}$" for c in step.conditions)
+        remarks = [step.remark, because and f"as {because}"]
+        return Equation(
+            label=f"eq-{step.name}",
+            name=inline(symbol.heading),
+            symbol=symbol.latex,
+            lines=lines,
+            source=inline("; ".join(filter(None, remarks))),
+        )
 
-    def _with_symbols(self, formula: str) -> str:
-        formula = formula.replace("<x>", r"\,")
-        return re.sub(r"<(\w+)>", lambda name: self.values[name[1]].symbol, formula)
 
-    def _with_values(self, formula: str, units: bool) -> str:
-        def value(match: re.Match[str]) -> str:
-            text, power = self._in_tex(match[2], units=units), match[3]
-            grouped = (power and (units or "times" in text)) or (match[1] and "times" in text)
-            grouped = grouped and not text.startswith("(")
-            before = match[1] or ""
-            return f"{before}({text}){power}" if grouped else before + text + power
-
-        return re.sub(r"(/ )?<(\w+)>(\^?)", value, formula.replace("<x>", r"\times"))
-
-    def _in_tex(self, name: str, *, units: bool) -> str:
-        _, value, quantity, given = self.values[name]
-        shown = printed(value, quantity, self.system, given=given)
-        if units:
-            return in_tex(shown)
-        text = number_in_tex(shown)
-        return f"({text})" if text.startswith("-") else text
+def in_symbols(step: Step) -> str:
+    """Return the equation of a step in symbols."""
+    return step.latex(_IN_SYMBOLS)
 
 
 def _broken(formula: str) -> list[str]:

@@ -1,32 +1,17 @@
-"""The design procedure step by step: equation, symbols, values put in, and result of each."""
+"""The design procedure step by step: equation, values put in, and result of each."""
 
-from collections.abc import Iterator, Sequence
+from functools import cached_property
 
-from pierimpact.design.equations import DesignStep
+from pierimpact.design.procedure import long
 from pierimpact.design.reaction import DesignReaction
-from pierimpact.report.calculation import Calculation
+from pierimpact.handcalc import Step
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Inline, Ref, Tex, inline
 from pierimpact.report.document.numbered import Column, Steps, Table
-from pierimpact.report.document.step_writer import StepWriter, Value
+from pierimpact.report.document.step_writer import StepWriter, in_symbols
+from pierimpact.report.sheet.section import Section
+from pierimpact.symbols import SYMBOLS
 from pierimpact.units import printed, unit_of, unit_size
-
-# Kinds of quantity by SI unit. Forces, masses, lengths and times are in consistent units, so that
-# values can be put in without a factor.
-_QUANTITIES = {
-    "N": "dynamic force",
-    "kg": "dynamic mass",
-    "N/m": "dynamic stiffness",
-    "m/s": "dynamic speed",
-    "m/s^2": "acceleration",
-    "m": "length",
-    "s": "dynamic time",
-    "rad/s": "circular frequency",
-    "1/s": "decay rate",
-    "rad": "angle",
-    "N s": "impulse",
-    "-": "share",
-}
 
 # Where the starting values are from, unless from the table of the truck.
 _ORIGINS = {
@@ -35,159 +20,103 @@ _ORIGINS = {
     "kp": Ref("Eq.", "eq-kp"),
     "zeta": Ref("Table", "tab-inputs"),
 }
-
-# What is to be said of a step beside what it is.
-_SOURCES = {
-    "engine_hump": "figures fitted to the full model",
-    "cargo_hump": "figures fitted to the full model",
-    "overshoot": "a suddenly applied force",
-    "engine_swing": "of displacement and velocity",
-    "pulse_centroid": "a quarter of a sine up, and down in e times its time",
-    "pulse_spread": "of the same blow",
-}
-
+#: The parts of the procedure, and the value that each of them but the first starts with.
+PARTS = ("plateau", "engine", "vibration", "arrival", "cargo")
+_STARTS = ("t1_0", "mr", "t2_0", "beta2")
 # The time of a contact that does not come about, and the speed that is zero then.
 _STOPPED = "of a body that would just reach the pier: this one stops before"
-_SPEED_AT = {"engine_time": "engine_speed", "cargo_time": "cargo_speed"}
-
-# Parts of the procedure, and the first step of the next.
-_ENDS = {
-    "plateau": ("engine_first_time",),
-    "engine": ("ringing_time", "pulse_mass"),
-    "ringing": ("cargo_first_time",),
-    "contact": ("cargo_beta",),
-    "cargo": (),
-}
+_SPEED_AT = {"t1": "v1", "t2": "v2"}
+_STARTING = tuple(name for name in long.given if name != "on_pier")
 
 
-def given_table(calculation: Calculation) -> Block:
-    """Return what the procedure starts from, in the units that values are put in with."""
-    system = calculation.case.inputs.units
-    rows: list[list[Inline]] = []
-    for step in calculation.design.given:
-        shown = printed(step.value, _QUANTITIES[step.unit], system, given=True)
-        rows.append(
-            [
-                _capital(step.meaning),
-                Tex(step.symbol),
-                shown.number,
-                shown.unit,
-                _ORIGINS.get(step.name, Ref("Table", "tab-truck")),
-            ]
+class DesignProcedure(Section):
+    """The design procedure, at its long level step by step, at its short level in a table."""
+
+    def starting_values(self) -> Block:
+        """Return what the procedure starts from, in the units that values are put in with."""
+        writer = self._writer(self.calculation.design)
+        mass = "dynamic mass"
+        size = unit_size(mass, self.system) / unit_size("mass", self.system)
+        return Table(
+            label="tab-given",
+            caption="Starting values of the procedure, in consistent units: forces are masses "
+            f"times accelerations, and 1 {unit_of(mass, self.system)} is "
+            f"{printed(size, 'share', 'SI', given=True)} {self.unit('mass')}.",
+            columns=[
+                Column(heading="Item"),
+                Column(heading="Symbol"),
+                Column(heading="Value", align="decimal"),
+                Column(heading="Unit"),
+                Column(heading="From"),
+            ],
+            rows=[
+                [
+                    SYMBOLS[name].heading,
+                    Tex(SYMBOLS[name].latex),
+                    *writer.shown(name),
+                    _ORIGINS.get(name, Ref("Table", "tab-truck")),
+                ]
+                for name in _STARTING
+            ],
         )
-    mass, unit = unit_of("dynamic mass", system), unit_of("mass", system)
-    in_units = unit_size("dynamic mass", system) / unit_size("mass", system)
-    return Table(
-        label="tab-given",
-        caption="What the procedure starts from, in consistent units: forces are masses times "
-        f"accelerations, and 1 {mass} is {printed(in_units, 'share', 'SI', given=True)} {unit}.",
-        columns=[
-            Column(heading="Item"),
-            Column(heading="Symbol"),
-            Column(heading="Value", align="decimal"),
-            Column(heading="Unit"),
-            Column(heading="From"),
-        ],
-        rows=rows,
-    )
 
-
-def procedure_steps(calculation: Calculation, part: str) -> Block:
-    """Return a part of the procedure.
-
-    Parameters
-    ----------
-    calculation : Calculation
-        The calculation.
-    part : {"plateau", "engine", "ringing", "contact", "cargo"}
-        Which part.
-    """
-    design = calculation.design
-    steps = _parts(design.steps)[part]
-    if not steps:  # only the last part can have none
-        return Paragraph(
-            ("The cargo stops before it meets the pier, ", Tex("v_2 = 0"), ": it has no reaction.")
-        )
-    values = _values(design)
-    stopped = {
-        time: _STOPPED
-        for time, speed in _SPEED_AT.items()
-        if speed in values and values[speed].value == 0.0
-    }
-    write = StepWriter(values, calculation.case.inputs.units)
-    return Steps(
-        [
-            write.step(
-                _capital(step.meaning),
-                step.name,
-                step.formula,
-                units=False,
-                source=(_SOURCES | stopped).get(step.name, ""),
+    def steps(self, part: str) -> Block:
+        """Return a part of the procedure, one of PARTS."""
+        steps = self._parts[PARTS.index(part)]
+        if not steps:  # only the last part can have none
+            return Paragraph(
+                (
+                    "The cargo stops before it meets the pier, ",
+                    Tex("v_2 = 0"),
+                    ": it has no reaction.",
+                )
             )
-            for step in steps
+        return Steps([self._writer(self.calculation.design).equation(step) for step in steps])
+
+    @cached_property
+    def _parts(self) -> list[list[Step]]:
+        design = self.calculation.design
+        steps = [
+            step._replace(remark=_STOPPED)
+            if step.name in _SPEED_AT and not design.values[_SPEED_AT[step.name]] > 0.0
+            else step
+            for step in design.steps
         ]
-    )
+        return design.calculation.split(steps, *_STARTS)
 
+    def _writer(self, design: DesignReaction) -> StepWriter:
+        # The number of periods prints as a whole number.
+        given = (*_STARTING, "n")
+        return StepWriter(design.values, self.system, given, units=False, consistent=True)
 
-def hand_table(calculation: Calculation) -> Block:
-    """Return the procedure on its hand level: equations and results."""
-    system = calculation.case.inputs.units
-    rows: list[list[Inline]] = []
-    for step in calculation.hand.steps:
-        value = Value(step.symbol, step.value, _QUANTITIES[step.unit])
-        shown = printed(value.value, value.quantity, system)
-        rows.append(
+    def short_level(self) -> Block:
+        """Return the short level as a table."""
+        short = self.calculation.short
+        writer = self._writer(short)
+        rows: list[list[Inline]] = [
             [
-                inline(_capital(step.meaning)),
-                Tex(rf"\displaystyle {step.symbol} = {step.equation}"),
-                shown.number,
-                shown.unit,
+                inline(SYMBOLS[step.name].heading),
+                Tex(rf"\displaystyle {SYMBOLS[step.name].latex} = {in_symbols(step)}"),
+                *writer.shown(step.name),
             ]
+            for step in short.steps
+        ]
+        return Table(
+            label="tab-short",
+            caption="The short level: a check from the same starting values. The plain numbers in "
+            "the resonance terms and in η are fitted to the full model.",
+            columns=[
+                Column(heading="Step", wide=True),
+                Column(heading="Equation"),
+                Column(heading="Value", align="decimal"),
+                Column(heading="Unit"),
+            ],
+            rows=rows,
+            centred=True,
         )
-    return Table(
-        label="tab-hand",
-        caption="The hand level: a short check from the same starting values. The plain numbers in "
-        "the humps and in η are fitted to the full model.",
-        columns=[
-            Column(heading="Step", wide=True),
-            Column(heading="Equation"),
-            Column(heading="Value", align="decimal"),
-            Column(heading="Unit"),
-        ],
-        rows=rows,
-        centred=True,
-    )
 
-
-def _parts(steps: Sequence[DesignStep]) -> dict[str, list[DesignStep]]:
-    parts: dict[str, list[DesignStep]] = {part: [] for part in _ENDS}
-    names = iter(_ENDS)
-    part = next(names)
-    for step in steps:
-        if step.name in _ENDS[part]:
-            part = next(names)
-        parts[part].append(step)
-    return parts
-
-
-def _values(design: DesignReaction) -> dict[str, Value]:
-    given = {
-        step.name: Value(step.symbol, step.value, _QUANTITIES[step.unit], True)
-        for step in design.given
-    }
-    return given | {
-        step.name: Value(step.symbol, step.value, _QUANTITIES[step.unit], step.name == "fast_turns")
-        for step in design.steps
-    }
-
-
-def symbols_of_procedure(calculation: Calculation) -> Iterator[tuple[str, Inline, str]]:
-    """Yield symbol, meaning and anchor of every value of the procedure, hand level last."""
-    for step in calculation.design.steps:
-        yield step.symbol, inline(step.meaning), f"eq-{step.name}"
-    for step in calculation.hand.steps:
-        yield step.symbol, inline(step.meaning), "tab-hand"
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
+    def symbols(self) -> dict[str, str]:
+        """Return the anchors of the symbols of the procedure, by name."""
+        long, short = self.calculation.design.steps, self.calculation.short.steps
+        anchors = {step.name: "tab-short" for step in short}
+        return anchors | {step.name: f"eq-{step.name}" for step in long}

@@ -1,184 +1,227 @@
-"""Section, unit forces and stiffness of the pier, step by step."""
+"""The equivalent pier: section, unit forces, stiffness, shape function, mass and frequency."""
 
+from collections.abc import Mapping
+from functools import cached_property
+
+import numpy as np
+
+from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
 from pierimpact.files.case import concrete_modulus
-from pierimpact.pier.sections import CircularSection
-from pierimpact.report.calculation import Calculation
-from pierimpact.report.document.blocks import Paragraph
-from pierimpact.report.document.numbered import Equation, Steps
-from pierimpact.report.sheet.pier_values import pier_writer
-from pierimpact.units import printed, unit_of, unit_size
+from pierimpact.pier.column import rigidities
+from pierimpact.pier.equivalent import equivalent_mass, vibration
+from pierimpact.pier.sections import circle
+from pierimpact.pier.unit_force import BY_ENDS
+from pierimpact.report.document.blocks import Block, Paragraph
+from pierimpact.report.document.markup import Ref, Tex, in_tex, number_in_tex
+from pierimpact.report.document.numbered import Column, Equation, Steps, Table
+from pierimpact.report.document.step_writer import StepWriter
+from pierimpact.report.sheet.section import Section
+from pierimpact.symbols import SYMBOLS
+from pierimpact.units import printed, rounded, unit_size
+
+_GIVEN = ("D", "b", "h", "kappa", "fc", "E", "nu", "rho", "H", "z", "y", "zeta")
 
 
-def units_note(calculation: Calculation) -> Paragraph:
-    """Say which units values without units are in, and how masses and forces go together."""
-    system = calculation.case.inputs.units
-    length, force = unit_of("length", system), unit_of("shear rigidity", system)
-    stiffness, in_masses = unit_of("stiffness", system), unit_of("mass stiffness", system)
-    size = unit_size("stiffness", system) / unit_size("mass stiffness", system)
-    return Paragraph(
-        f"Where values are put in without their units, lengths are in {length} and forces in "
-        f"{force}. Masses are in {unit_of('mass', system)}: where they stand beside a stiffness, "
-        f"1 {stiffness} is {printed(size, 'share', 'SI', given=True)} {in_masses}. "
-        "Every printed value is rounded, so that a check by hand may differ in the last figure."
-    )
+class EquivalentPierSteps(Section):
+    """The column as one degree of freedom, step by step."""
 
+    def symbols(self) -> dict[str, str]:
+        """Return the anchors of the symbols of the pier, by name."""
+        blocks = (self.section(), *self._unit_force, self.mass())
+        steps = [equation.label for block in blocks for equation in block.equations]
+        others = dict.fromkeys(("height", "s", "phi"), "tab-shape")
+        return {label.removeprefix("eq-"): label for label in steps} | others
 
-def section_steps(calculation: Calculation) -> Steps:
-    """Return area, rigidities and mass per length of the column."""
-    step = pier_writer(calculation).step
-    circular = isinstance(calculation.case.column.section, CircularSection)
-    steps = [
-        step("Area", "A", r"\frac{\pi <D>^2}{4}" if circular else "<b> <x> <h>"),
-        step(
-            "Second moment of area",
-            "I",
-            r"\frac{\pi <D>^4}{64}" if circular else r"\frac{<b> <x> <h>^3}{12}",
-        ),
-        step("Flexural rigidity", "EI", "<E> <x> <I>"),
-        step("Shear modulus", "G", r"\frac{<E>}{2 \, (1 + <nu>)}"),
-        step(
-            "Shear rigidity",
-            "GA",
-            "<kappa> <x> <G> <x> <A>",
-            source="κ = 0.9 of a circle" if circular else "κ = 5/6 of a rectangle",
-        ),
-        step("Mass per length", "m", "<rho> <x> <A>"),
-    ]
-    if calculation.case.inputs.concrete_strength is not None:
-        steps.insert(0, _concrete_modulus(calculation))
-    return Steps(steps)
+    def impact_height(self) -> Block:
+        """Return which nominal impact height is used, and why."""
+        low, high, used = (
+            str(self.shown(height, "length", given=True))
+            for height in (
+                LOW_IMPACT_HEIGHT,
+                HIGH_IMPACT_HEIGHT,
+                self.calculation.struck.impact_height,
+            )
+        )
+        symbol, trial = Tex(SYMBOLS["z"].latex), self.calculation.trial
+        if trial is None:
+            return Paragraph(
+                ("The nominal impact height ", symbol, f" = {used} is given by the case.")
+            )
+        engine = trial.engine_peak.reaction
+        found = f"A trial at {low} gives an engine peak of {self.shown(engine, 'force')}"
+        if trial.cargo_peak is None:
+            found += " and no cargo peak"
+        else:
+            cargo = trial.cargo_peak.reaction
+            ratio = rounded(cargo / engine, 3)
+            found += f" and a cargo peak of {self.shown(cargo, 'force')}, {ratio} of it"
+        return Paragraph(
+            (
+                "The case leaves the nominal impact height to the rule of the source paper: "
+                f"{low} without cargo peak or with a much smaller one, else {high}. Much smaller "
+                f"is taken as below {MUCH_SMALLER:g} of the engine peak, which is this project’s "
+                f"figure. {found}: ",
+                symbol,
+                f" = {used}.",
+            )
+        )
 
+    def units(self) -> Block:
+        """Return which units values without units are in, and how masses and forces compare."""
+        size = unit_size("stiffness", self.system) / unit_size("mass stiffness", self.system)
+        return Paragraph(
+            f"Where values are put in without their units, lengths are in {self.unit('length')} "
+            f"and forces in {self.unit('shear rigidity')}. Masses are in {self.unit('mass')}: "
+            f"where they stand beside a stiffness, 1 {self.unit('stiffness')} is "
+            f"{printed(size, 'share', 'SI', given=True)} {self.unit('mass stiffness')}. "
+            "Every printed value is rounded, so that a check by hand may differ in the last figure."
+        )
 
-def _concrete_modulus(calculation: Calculation) -> Equation:
-    """Return the modulus by the formula of ACI 318, its factor in the units of the sheet."""
-    system = calculation.case.inputs.units
-    modulus, strength = (unit_size(kind, system) for kind in ("modulus", "strength"))
-    factor = f"{concrete_modulus(strength) / modulus:.6g}"
-    one = rf"1\ \text{{{unit_of('strength', system)}}}"
-    in_mpa = "" if system == "SI" else ", there 4700 with both in MPa"
-    return pier_writer(calculation).step(
-        "Elastic modulus of the concrete",
-        "E",
-        rf"{factor}\ \text{{{unit_of('modulus', system)}}} <x> \sqrt{{<fc> / ({one})}}",
-        source=f"as in ACI 318{in_mpa}, from memory; unverified: check against the standard",
-    )
-
-
-def unit_force_steps(calculation: Calculation) -> Steps:
-    """Return support forces and moments under a unit force at the impact height.
-
-    Force and moment at the top follow from what the top is, or from what cannot move; the
-    others from equilibrium. Derived here by integrating M/EI and V/κGA over the column.
-    """
-    write, column = pier_writer(calculation), calculation.case.column
-    top = [
-        write.step(name, result, formula, units=False, source=source)
-        for name, result, formula, source in _TOP[column.base, column.top]
-    ]
-    rest = [
-        ("Force at the base", "Rb", "1 - <Rt>"),
-        ("Moment at the base", "Mb", "<Mt> + <Rt> <x> <H> - <z>"),
-        ("Moment at the impact", "Mn", "<Mt> + <Rt> <x> <y>"),
-    ]
-    return Steps(
-        [
-            *top,
-            *(write.step(*step, units=False, source="equilibrium") for step in rest),
+    def section(self) -> Steps:
+        """Return area, rigidities and mass per length of the column."""
+        writer = self._writer(self._values)
+        circular = self.case.column.section.calculation is circle
+        kappa = f"κ = {'0.9 of a circle' if circular else '5/6 of a rectangle'}"
+        equations = [
+            writer.equation(step._replace(remark=kappa) if step.name == "GA" else step)
+            for calculation in (self.case.column.section.calculation, rigidities)
+            for step in calculation.steps(self._values, calculation.names)
         ]
-    )
+        if self.case.inputs.concrete_strength is not None:
+            equations.insert(0, self._concrete_modulus())
+        return Steps(equations)
 
+    def _concrete_modulus(self) -> Equation:
+        """Return the modulus by the formula of ACI 318, its factor in the units of the sheet."""
+        modulus, strength = (unit_size(kind, self.system) for kind in ("modulus", "strength"))
+        factor = f"{concrete_modulus(strength) / modulus:.6g}"
+        unit, one = self.unit("modulus"), rf"(1\ \text{{{self.unit('strength')}}})"
+        writer = self._writer(self._values)
+        in_mpa = "" if self.system == "SI" else ", there 4700 with both in MPa"
 
-# Deflection of the freed end under the unit force, and under a unit force of its own.
-_FREED = "freed, under the unit force at the impact"
-_FREED_OWN = "freed, under a unit force of its own"
-_OWN = r"\frac{<H>^3}{3 <x> <EI>} + \frac{<H>}{<GA>}"
-# By base and top: the steps to force and moment at the top.
-_TOP = {
-    ("fixed", "free"): [
-        ("Force at the top", "Rt", "0", "free top"),
-        ("Moment at the top", "Mt", "0", "free top"),
-    ],
-    ("free", "fixed"): [
-        ("Force at the top", "Rt", "1", "nothing holds the base"),
-        ("Moment at the top", "Mt", "<z> - <Rt> <x> <H>", "no moment at the base"),
-    ],
-    ("pinned", "pinned"): [
-        ("Force at the top", "Rt", r"\frac{<z>}{<H>}", "equilibrium"),
-        ("Moment at the top", "Mt", "0", "pinned top"),
-    ],
-    ("fixed", "pinned"): [
-        (
-            f"Deflection of the top, {_FREED}",
-            "freed",
-            r"\frac{<z>^2 \, (3 <x> <H> - <z>)}{6 <x> <EI>} + \frac{<z>}{<GA>}",
-            "bending and shear",
-        ),
-        (f"Deflection of the top, {_FREED_OWN}", "own", _OWN, "bending and shear"),
-        ("Force at the top", "Rt", r"\frac{<freed>}{<own>}", "the top stays in place"),
-        ("Moment at the top", "Mt", "0", "pinned top"),
-    ],
-    ("pinned", "fixed"): [
-        (
-            f"Deflection of the base, {_FREED}",
-            "freed",
-            r"\frac{<y>^2 \, (2 <x> <H> + <z>)}{6 <x> <EI>} + \frac{<y>}{<GA>}",
-            "bending and shear",
-        ),
-        (f"Deflection of the base, {_FREED_OWN}", "own", _OWN, "bending and shear"),
-        ("Force at the top", "Rt", r"1 - \frac{<freed>}{<own>}", "the base stays in place"),
-        ("Moment at the top", "Mt", "<z> - <Rt> <x> <H>", "no moment at the base"),
-    ],
-    ("fixed", "fixed"): [
-        (
-            f"Deflection of the top, {_FREED}",
-            "freed",
-            r"\frac{<z>^2 \, (3 <x> <H> - 2 <x> <z>)}{12 <x> <EI>} + \frac{<z>}{<GA>}",
-            "bending and shear; it cannot turn",
-        ),
-        (
-            f"Deflection of the top, {_FREED_OWN}",
-            "own",
-            r"\frac{<H>^3}{12 <x> <EI>} + \frac{<H>}{<GA>}",
-            "bending and shear; it cannot turn",
-        ),
-        ("Force at the top", "Rt", r"\frac{<freed>}{<own>}", "the top stays in place"),
-        (
-            "Moment at the top",
-            "Mt",
-            r"\frac{<z>^2}{2 <x> <H>} - \frac{<Rt> <x> <H>}{2}",
-            "the top does not turn",
-        ),
-    ],
-}
+        def formula(value: str, times: str) -> str:
+            return rf"{factor}\ \text{{{unit}}} {times} \sqrt{{{value} / {one}}}"
 
+        values = formula(in_tex(writer.shown("fc")), r"\times")
+        return Equation(
+            label="eq-E",
+            name="Elastic modulus of the concrete",
+            symbol="E",
+            lines=[
+                formula(SYMBOLS["fc"].latex, r"\,"),
+                f"{values} = {in_tex(writer.shown('E'))}",
+            ],
+            source=f"as in ACI 318{in_mpa}, from memory; unverified: check against the standard",
+        )
 
-def stiffness_steps(calculation: Calculation) -> Steps:
-    """Return the deflection under the unit force, of flexure and shear, and the stiffness."""
-    step = pier_writer(calculation).step
-    return Steps(
-        [
-            step(
-                "Deflection by flexure below the impact",
-                "xf_below",
-                r"\frac{<z> \left( <Mb>^2 + <Mb> <x> <Mn> + <Mn>^2 \right)}{3 <x> <EI>}",
-                units=False,
-                source="integral of M² over EI",
-            ),
-            step(
-                "Deflection by flexure above the impact",
-                "xf_above",
-                r"\frac{<y> \left( <Mn>^2 + <Mn> <x> <Mt> + <Mt>^2 \right)}{3 <x> <EI>}",
-                units=False,
-                source="integral of M² over EI",
-            ),
-            step(
-                "Deflection by shear",
-                "xs",
-                r"\frac{<z> <x> <Rb>^2 + <y> <x> <Rt>^2}{<GA>}",
-                units=False,
-                source="integral of the squared shear over κGA",
-            ),
-            step("Deflection at the impact", "xn", "<xf_below> + <xf_above> + <xs>", units=False),
-            step("Stiffness", "kp", r"\frac{1}{<xn>}", source="Eq. 3 of the source paper"),
+    def unit_forces(self) -> Steps:
+        """Return support forces and moments under a unit force at the impact height."""
+        return self._unit_force[0]
+
+    def stiffness(self) -> Steps:
+        """Return the deflection under the unit force, of flexure and shear, and the stiffness."""
+        return self._unit_force[1]
+
+    def shape(self) -> Steps:
+        """Return the shape function below and above the impact, as polynomials with their terms."""
+        places = (("below", "b", "z / H"), ("above", "t", "(H - z) / H"))
+        shapes = [
+            Equation(
+                label=f"eq-shape-{where}",
+                name=f"Shape {where} the impact",
+                symbol=SYMBOLS["phi"].latex,
+                lines=[
+                    self._polynomial(end, in_values=False),
+                    self._polynomial(end, in_values=True)
+                    + rf" \quad \text{{with }} s = {place}",
+                ],
+                source="Eq. 2 of the source paper",
+            )
+            for where, end, place in places
+        ]  # fmt: skip
+        return Steps([*self._unit_force[2].equations, *shapes])
+
+    def _polynomial(self, end: str, *, in_values: bool) -> str:
+        """Return φ in LaTeX, with the symbols of its coefficients or with their values."""
+        text, values = "", self.calculation.struck.values
+        for power in range(4):
+            name = f"c{end}{power}"
+            if name not in values:
+                continue
+            value = values[name]
+            shown = SYMBOLS[name].latex
+            if in_values:
+                shown = number_in_tex(printed(abs(value), SYMBOLS[name].quantity, "SI"))
+            sign = "-" if in_values and value < 0.0 else "+" if text else ""
+            text += f"{sign} {shown}" + ("", r" \, s ")[power > 0] + f"^{power} " * (power > 1)
+        return text
+
+    def shape_table(self) -> Table:
+        """Return ordinates of the shape function, four equal intervals on either side."""
+        struck, height = self.calculation.struck, self.case.column.height
+        below = np.linspace(0.0, struck.impact_height, 5)
+        above = np.linspace(struck.impact_height, height, 5)
+        simpson = np.array([1.0, 4.0, 2.0, 4.0, 1.0]) / 12.0
+        check = sum(
+            float((part[-1] - part[0]) * (simpson @ struck.shape(part) ** 2))
+            for part in (below, above)
+        )
+        rows = [
+            [self.number(z, "length"), *(self.number(phi**n, "ordinate") for n in (1, 2))]
+            for z, phi in ((z, float(struck.shape(z))) for z in (*below, *above[1:]))
         ]
-    )
+        integral = in_tex(self.shown(check, "length"))
+        return Table(
+            label="tab-shape",
+            caption=(
+                "Shape function. As a check, Simpson’s rule over these ordinates, part by part, "
+                "gives ",
+                Tex(r"\int \varphi^2 \, \mathrm{d}z = " + integral),
+                ", to be compared with ",
+                Ref("Eq.", "eq-phi2"),
+                ".",
+            ),
+            columns=[
+                Column(heading=("Height ", Tex("z"), f" [{self.unit('length')}]"), align="decimal"),
+                Column(heading=Tex(r"\varphi"), align="decimal"),
+                Column(heading=Tex(r"\varphi^2"), align="decimal"),
+            ],
+            rows=rows,
+        )
+
+    def mass(self) -> Steps:
+        """Return equivalent mass, frequency and damping."""
+        found = vibration(**{name: self._values[name] for name in vibration.given})
+        writer = self._writer(found | self._values, quantities={"kp": "mass stiffness"})
+        steps = [*equivalent_mass.steps(self._values, equivalent_mass.names)]
+        steps += vibration.steps(found, vibration.names)
+        return Steps([*self._unit_force[3].equations, *map(writer.equation, steps)])
+
+    @cached_property
+    def _values(self) -> dict[str, float]:
+        """The values of the column and the pier, by symbol."""
+        result = self.calculation
+        return result.struck.values | {
+            "zeta": result.pier.damping_ratio,
+            "fc": self.case.inputs.concrete_strength or 0.0,
+        }
+
+    def _writer(
+        self,
+        values: Mapping[str, float],
+        *,
+        units: bool = True,
+        quantities: Mapping[str, str] | None = None,
+    ) -> StepWriter:
+        return StepWriter(values, self.system, _GIVEN, units=units, quantities=quantities)
+
+    @cached_property
+    def _unit_force(self) -> list[Steps]:
+        """The steps under the unit force: forces, stiffness, shape, and integrals of its square."""
+        column, writer = self.case.column, self._writer(self._values, units=False)
+        calculation = BY_ENDS[column.base, column.top]
+        steps = calculation.steps(self._values, calculation.names)
+        return [
+            Steps([writer.equation(step) for step in part])
+            for part in calculation.split(steps, "xfb", "sb", "phi2b")
+        ]

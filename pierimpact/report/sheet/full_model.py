@@ -1,199 +1,239 @@
-"""The nominal impact height, and the collision by the full model."""
+"""The collision by the full model: what it solves, its history and peaks, and the check by it."""
 
 from pierimpact.checks import InputError
 from pierimpact.collision.averages import largest_average_force
-from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
+from pierimpact.collision.history import Peak
 from pierimpact.plots.figures import draw_history
-from pierimpact.report.calculation import Calculation
-from pierimpact.report.document.blocks import Block, Paragraph
+from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Tex, in_tex
 from pierimpact.report.document.numbered import Column, Equation, Figure, Steps, Table
-from pierimpact.units import printed, rounded, unit_of
+from pierimpact.report.sheet.section import Section
+from pierimpact.symbols import SYMBOLS
+from pierimpact.units import rounded
 
 #: Windows of the moving averages that crash tests report [s].
 WINDOWS = (0.010, 0.025)
 
 
-def impact_height(calculation: Calculation) -> Block:
-    """Say which nominal impact height is used, and why."""
-    system = calculation.case.inputs.units
-    low, high, used = (
-        str(printed(height, "length", system, given=True))
-        for height in (LOW_IMPACT_HEIGHT, HIGH_IMPACT_HEIGHT, calculation.struck.impact_height)
-    )
-    symbol = Tex(r"z_\mathrm{n}")
-    if calculation.trial is None:
-        return Paragraph(("The nominal impact height ", symbol, f" = {used} is given by the case."))
-    trial = calculation.trial
-    engine = printed(trial.engine_peak.reaction, "force", system)
-    found = f"A trial at {low} gives an engine peak of {engine} and no cargo peak"
-    if trial.cargo_peak is not None:
-        cargo = printed(trial.cargo_peak.reaction, "force", system)
-        ratio = rounded(trial.cargo_peak.reaction / trial.engine_peak.reaction, 3)
-        found = (
-            f"A trial at {low} gives an engine peak of {engine} and a cargo peak of {cargo}, "
-            f"{ratio} of it"
+class FullModel(Section):
+    """The collision by the full model."""
+
+    def equations(self) -> Steps:
+        """Return the equations of motion and the crush law that the full model solves."""
+        on_pier = self.case.truck.friction_on == "pier"
+        relative = r"\dot x_2 - \dot x_\mathrm{p}" if on_pier else r"\dot x_2"
+        where = "while its spring touches the pier" if on_pier else "against the road"
+        on_the_pier = r" + F_\mathrm{f}" if on_pier else ""
+        ours, paper = "derived here", "Fig. 2 of the source paper"
+        equations = (
+            (
+                "crush",
+                "Crush of the springs of engine and body",
+                r"\delta_i",
+                r"x_i - x_\mathrm{p} \quad (i = 1, 2)",
+                "",
+            ),
+            (
+                "envelope",
+                "Envelope, up to the plateau’s end and beyond",
+                r"E_i(\delta)",
+                r"\min(k_{\mathrm{u}i} \, \delta, P_i) \ \text{ where } \delta \le d_i, "
+                r"\quad P_i + k_i \, (\delta - d_i) \ \text{ beyond}",
+                ours,
+            ),
+            (
+                "force",
+                "Force of a spring, with its largest crush so far",
+                "F_i",
+                r"\max(E_i(\delta_{i,\max}) - k_{\mathrm{u}i} \, (\delta_{i,\max} - \delta_i), 0)",
+                ours,
+            ),
+            (
+                "friction",
+                f"Friction on the body, {where}",
+                r"F_\mathrm{f}",
+                rf"c_\mathrm{{s}} \operatorname{{sgn}}({relative}), "
+                r"\quad \text{sticking as long as less holds it}",
+                ours,
+            ),
+            ("engine", "Motion of the engine", r"m_1 \, \ddot x_1", "-F_1", paper),
+            (
+                "body",
+                "Motion of body and cargo",
+                r"m_2 \, \ddot x_2",
+                r"-F_2 - F_\mathrm{f}",
+                paper,
+            ),
+            (
+                "pier",
+                "Motion of the pier",
+                r"m_\mathrm{p} \, \ddot x_\mathrm{p} + c_\mathrm{p} \, \dot x_\mathrm{p}"
+                r" + k_\mathrm{p} \, x_\mathrm{p}",
+                "F_1 + F_2" + on_the_pier,
+                paper,
+            ),
         )
-    return Paragraph(
-        (
-            f"The case leaves the nominal impact height to the rule of the source paper: {low} "
-            f"without cargo peak or with a much smaller one, else {high}. Much smaller is taken as "
-            f"below {MUCH_SMALLER:g} of the engine peak, which is this project’s figure. {found}: ",
-            symbol,
-            f" = {used}.",
-        )
-    )
-
-
-def history_figure(calculation: Calculation) -> Block:
-    """Return reaction and contact force against time."""
-    history, system = calculation.history, calculation.case.inputs.units
-    cargo = history.cargo_peak
-    engine_words = f"{printed(history.engine_peak.reaction, 'force', system)} after "
-    engine_words += str(printed(history.engine_peak.time, "time", system))
-    cargo_words = "; there is no cargo peak"
-    if cargo is not None:
-        cargo_words = f", the cargo peak {printed(cargo.reaction, 'force', system)} after "
-        cargo_words += str(printed(cargo.time, "time", system))
-    return Figure(
-        label="fig-history",
-        caption=(
-            "Reaction ",
-            Tex(r"R = k_\mathrm{p} x_\mathrm{p}"),
-            " (thick) and contact force between truck and pier (thin) against time.",
-        ),
-        alt=f"Reaction against time. The engine peak is {engine_words}{cargo_words}.",
-        svg=draw_history(history, system),
-    )
-
-
-def peaks_table(calculation: Calculation) -> Block:
-    """Return contact times and peaks of engine and cargo, and which governs."""
-    history, system = calculation.history, calculation.case.inputs.units
-    peaks = (
-        ("Engine", history.engine_contact_time, history.engine_peak),
-        ("Cargo", history.cargo_contact_time, history.cargo_peak),
-    )
-    rows: list[list[Inline]] = []
-    for name, contact, peak in peaks:
-        governs = peak is not None and peak == history.governing_peak
-        rows.append(
+        return Steps(
             [
-                name,
-                "none" if contact is None else printed(contact, "time", system).number,
-                "none" if peak is None else printed(peak.reaction, "force", system).number,
-                "" if peak is None else printed(peak.time, "time", system).number,
-                "governs" if governs else "",
+                Equation(
+                    label=f"eq-model-{label}",
+                    name=name,
+                    symbol=symbol,
+                    lines=[formula],
+                    source=source,
+                )
+                for label, name, symbol, formula, source in equations
             ]
         )
-    time, force = unit_of("time", system), unit_of("force", system)
-    return Table(
-        label="tab-peaks",
-        caption="Contacts and peak reactions.",
-        columns=[
-            Column(heading=""),
-            Column(heading=f"Contact after [{time}]", align="decimal"),
-            Column(heading=f"Peak reaction [{force}]", align="decimal"),
-            Column(heading=f"Peak after [{time}]", align="decimal"),
-            Column(heading=""),
-        ],
-        rows=rows,
-        strong=[1 if history.governing_peak == history.cargo_peak else 0],
-    )
 
+    def symbols(self) -> dict[str, str]:
+        """Return the anchors of the symbols of the full model, by name."""
+        return {
+            "delta_i": "eq-model-crush",
+            "E_i": "eq-model-envelope",
+            "F_i": "eq-model-force",
+            "F_f": "eq-model-friction",
+            "R": "eq-design-reaction",
+            "R_D": "tab-check",
+            "R_M": "tab-check",
+        }
 
-def averages_table(calculation: Calculation) -> Block:
-    """Return the largest contact force and its largest moving averages."""
-    history, system = calculation.history, calculation.case.inputs.units
-    largest = float(history.contact_force.max())
-    at = float(history.time[history.contact_force.argmax()])
-    rows: list[list[Inline]] = [
-        [
-            "At one instant",
-            printed(largest, "force", system).number,
-            printed(at, "time", system).number,
-        ]
-    ]
-    for window in WINDOWS:
-        name = f"Over {printed(window, 'time', system, given=True)}"
-        try:
-            average = largest_average_force(history, window)
-        except InputError:  # the collision is over sooner
-            rows.append([name, "none", ""])
-            continue
-        shown, start = (
-            printed(average.force, "force", system),
-            printed(average.start, "time", system),
+    def history(self) -> Block:
+        """Return reaction and contact force against time."""
+        history = self.calculation.history
+        words = f"The engine peak is {self._peak_words(history.engine_peak)}"
+        words += (
+            "; there is no cargo peak"
+            if history.cargo_peak is None
+            else f", the cargo peak {self._peak_words(history.cargo_peak)}"
         )
-        rows.append([name, shown.number, start.number])
-    return Table(
-        label="tab-averages",
-        caption="Largest contact force between truck and pier by the full model, and its largest "
-        "moving averages. The value of AASHTO LRFD was taken from the 25 ms average of a test.",
-        columns=[
-            Column(heading="Average"),
-            Column(heading=f"Contact force [{unit_of('force', system)}]", align="decimal"),
-            Column(heading=f"From [{unit_of('time', system)}]", align="decimal"),
-        ],
-        rows=rows,
-    )
+        return Figure(
+            label="fig-history",
+            caption=(
+                "Reaction ",
+                Tex(r"R = k_\mathrm{p} x_\mathrm{p}"),
+                " (thick) and contact force between truck and pier (thin) against time.",
+            ),
+            alt=f"Reaction against time. {words}.",
+            svg=draw_history(history, self.system),
+        )
 
+    def _peak_words(self, peak: Peak) -> str:
+        return f"{self.shown(peak.reaction, 'force')} after {self.shown(peak.time, 'time')}"
 
-def check_table(calculation: Calculation) -> Block:
-    """Return the design procedure beside the full model, with the ratio."""
-    history, design, hand = calculation.history, calculation.design, calculation.hand
-    system = calculation.case.inputs.units
-    cargo = history.cargo_peak
-    models = {
-        "Engine": (history.engine_peak.reaction, design.engine, hand.engine),
-        "Cargo": (cargo.reaction if cargo else None, design.cargo, hand.cargo),
-        "Governing": (history.governing_peak.reaction, design.reaction, hand.reaction),
-    }
-    rows: list[list[Inline]] = []
-    for name, (exact, *closed) in models.items():
-        row: list[Inline] = [name, _force_or_none(exact, system)]
-        for value in closed:
-            row.append(_force_or_none(value, system))
-            row.append("" if value is None or exact is None else rounded(value / exact, 3))
-        rows.append(row)
-    force = unit_of("force", system)
-    return Table(
-        label="tab-check",
-        caption="Reactions by the full model and by the two levels of the design procedure, each "
-        "with its ratio to the full model.",
-        columns=[
-            Column(heading="Reaction"),
-            Column(heading=f"Full model [{force}]", align="decimal"),
-            Column(heading=f"Design procedure [{force}]", align="decimal"),
-            Column(heading="Ratio", align="decimal"),
-            Column(heading=f"Hand level [{force}]", align="decimal"),
-            Column(heading="Ratio", align="decimal"),
-        ],
-        rows=rows,
-        strong=[2],
-    )
-
-
-def _force_or_none(value: float | None, system: str) -> str:
-    return "none" if value is None else printed(value, "force", system).number
-
-
-def design_reaction_step(calculation: Calculation) -> Block:
-    """Return the design reaction: the larger of procedure and full model."""
-    system = calculation.case.inputs.units
-    procedure = printed(calculation.design.reaction, "dynamic force", system)
-    model = printed(calculation.governing_peak.reaction, "dynamic force", system)
-    larger = printed(calculation.design_force, "dynamic force", system)
-    return Steps(
-        [
-            Equation(
-                label="eq-design-reaction",
-                name="Design reaction: procedure or full model",
-                symbol="R",
-                lines=[
-                    r"\max(R_\mathrm{D}, R_\mathrm{M})",
-                    rf"\max({in_tex(procedure)}, {in_tex(model)}) = {in_tex(larger)}",
-                ],
-            )
+    def peaks(self) -> Block:
+        """Return contact times and peaks of engine and cargo, and which governs."""
+        history = self.calculation.history
+        peaks = (
+            ("Engine", history.engine_contact_time, history.engine_peak),
+            ("Cargo", history.cargo_contact_time, history.cargo_peak),
+        )
+        rows: list[list[Inline]] = [
+            [
+                name,
+                self.number(contact, "time"),
+                self.number(peak.reaction if peak else None, "force"),
+                self.number(peak.time, "time") if peak else "",
+                "governs" if peak and peak == history.governing_peak else "",
+            ]
+            for name, contact, peak in peaks
         ]
-    )
+        time, force = self.unit("time"), self.unit("force")
+        return Table(
+            label="tab-peaks",
+            caption="Contacts and peak reactions.",
+            columns=[
+                Column(heading=""),
+                Column(heading=f"Contact after [{time}]", align="decimal"),
+                Column(heading=f"Peak reaction [{force}]", align="decimal"),
+                Column(heading=f"Peak after [{time}]", align="decimal"),
+                Column(heading=""),
+            ],
+            rows=rows,
+            strong=[1 if history.governing_peak == history.cargo_peak else 0],
+        )
+
+    def averages(self) -> Block:
+        """Return the largest contact force and its largest moving averages."""
+        history = self.calculation.history
+        largest = int(history.contact_force.argmax())
+        found: list[tuple[str, float | None, float]] = [
+            ("At one instant", float(history.contact_force[largest]), float(history.time[largest]))
+        ]
+        for window in WINDOWS:
+            name = f"Over {self.shown(window, 'time', given=True)}"
+            try:
+                found.append((name, *largest_average_force(history, window)))
+            except InputError:  # the collision is over sooner
+                found.append((name, None, 0.0))
+        return Table(
+            label="tab-averages",
+            caption="Largest contact force between truck and pier by the full model, and its "
+            "largest moving averages. The value of AASHTO LRFD was taken from the 25 ms average of "
+            "a test.",
+            columns=[
+                Column(heading="Average"),
+                Column(heading=f"Contact force [{self.unit('force')}]", align="decimal"),
+                Column(heading=f"From [{self.unit('time')}]", align="decimal"),
+            ],
+            rows=[
+                [name, self.number(force, "force"), "" if force is None else self.number(t, "time")]
+                for name, force, t in found
+            ],
+        )
+
+    def check(self) -> Block:
+        """Return the design procedure beside the full model, with the ratio."""
+        history = self.calculation.history
+        long, short = self.calculation.design, self.calculation.short
+        cargo = history.cargo_peak
+        reactions = {
+            "Engine": (history.engine_peak.reaction, long.engine, short.engine),
+            "Cargo": (cargo.reaction if cargo else None, long.cargo, short.cargo),
+            "Governing": (history.governing_peak.reaction, long.reaction, short.reaction),
+        }
+        rows: list[list[Inline]] = []
+        for name, (exact, *closed) in reactions.items():
+            rows.append([name, self.number(exact, "force")])
+            for value in closed:
+                ratio = "" if value is None or exact is None else rounded(value / exact, 3)
+                rows[-1] += [self.number(value, "force"), ratio]
+        force = self.unit("force")
+        return Table(
+            label="tab-check",
+            caption="Reactions by the full model and by the two levels of the design procedure, "
+            "each with its ratio to the full model.",
+            columns=[
+                Column(heading="Reaction"),
+                Column(heading=f"Full model [{force}]", align="decimal"),
+                Column(heading=f"Design procedure [{force}]", align="decimal"),
+                Column(heading="Ratio", align="decimal"),
+                Column(heading=f"Short level [{force}]", align="decimal"),
+                Column(heading="Ratio", align="decimal"),
+            ],
+            rows=rows,
+            strong=[2],
+        )
+
+    def design_reaction(self) -> Steps:
+        """Return the design reaction: the larger of procedure and full model."""
+        result = self.calculation
+        procedure, model, larger = (
+            in_tex(self.shown(force, "dynamic force"))
+            for force in (
+                result.design.reaction,
+                result.governing_peak.reaction,
+                result.design_force,
+            )
+        )
+        names = ", ".join(SYMBOLS[name].latex for name in ("R_D", "R_M"))
+        return Steps(
+            [
+                Equation(
+                    label="eq-design-reaction",
+                    name="Design reaction: procedure or full model",
+                    symbol="R",
+                    lines=[rf"\max({names})", rf"\max({procedure}, {model}) = {larger}"],
+                )
+            ]
+        )

@@ -1,6 +1,7 @@
 """The first page: head, results, warnings and contents."""
 
 import datetime
+from collections.abc import Iterator
 
 from pierimpact.report.calculation import Calculation
 from pierimpact.report.document.blocks import (
@@ -11,106 +12,151 @@ from pierimpact.report.document.blocks import (
     Paragraph,
     TitleBlock,
 )
-from pierimpact.report.sheet.cautions import cautions
+from pierimpact.report.sheet.inputs import STATUS_WORDS
+from pierimpact.report.sheet.section import Section
+from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, printed, rounded
 
 
-def title_block(calculation: Calculation) -> Block:
-    """Return the head of the sheet; where the case gives no date, it is today's."""
-    inputs = calculation.case.inputs
-    date = (inputs.date or datetime.date.today()).isoformat()
-    return TitleBlock(
-        title="Truck collision with a bridge pier",
-        subtitle="Calculation sheet. Coupled mass-spring-damper (CMSD) model of the collision",
-        entries={
-            "Project": inputs.project,
-            "Element": inputs.element,
-            "Job number": inputs.job_number,
-            "Revision": inputs.revision,
-            "Prepared by": inputs.prepared_by,
-            "Checked by": inputs.checked_by,
-            "Date": date,
-        },
-        date=date,
-        paper="a4" if inputs.units == "SI" else "us-letter",
-    )
+class Summary(Section):
+    """The first page."""
 
+    def title_block(self) -> Block:
+        """Return the head of the sheet; where the case gives no date, it is today's."""
+        inputs = self.case.inputs
+        date = (inputs.date or datetime.date.today()).isoformat()
+        return TitleBlock(
+            title="Truck collision with a bridge pier",
+            subtitle="Calculation sheet. Coupled mass-spring-damper (CMSD) model of the collision",
+            entries={
+                "Project": inputs.project,
+                "Element": inputs.element,
+                "Job number": inputs.job_number,
+                "Revision": inputs.revision,
+                "Prepared by": inputs.prepared_by,
+                "Checked by": inputs.checked_by,
+                "Date": date,
+            },
+            date=date,
+            paper="a4" if self.system == "SI" else "us-letter",
+        )
 
-def summary(calculation: Calculation) -> Block:
-    """Return the results in large type."""
-    system = calculation.case.inputs.units
-    design, peak = calculation.design, calculation.governing_peak
-    height = printed(calculation.struck.impact_height, "length", system, given=True)
-    parts = f"engine {printed(design.engine, 'force', system)}"
-    if design.cargo is not None:
-        parts += f", cargo {printed(design.cargo, 'force', system)}"
-    results = [
-        (
-            "Design reaction",
-            printed(calculation.design_force, "force", system),
-            f"static, at {height} above the base; by the {calculation.decisive}",
-        ),
-        ("Design procedure", printed(design.reaction, "force", system), parts),
-        (
-            "Full model",
-            printed(peak.reaction, "force", system),
-            f"{'engine' if peak == calculation.history.engine_peak else 'cargo'} peak; procedure "
-            f"over model {rounded(calculation.ratio, 3)}",
-        ),
-        _demand(calculation, "shear"),
-        _demand(calculation, "moment"),
-        (
-            "Pier frequency",
-            printed(calculation.pier.frequency, "frequency", system),
-            f"{printed(calculation.pier.stiffness, 'stiffness', system)}, "
-            f"{printed(calculation.pier.mass, 'mass', system)}",
-        ),
-    ]
-    return Headline(results=results)
+    def results(self) -> Block:
+        """Return the results in large type."""
+        result = self.calculation
+        design, peak, pier = result.design, result.governing_peak, result.pier
+        height = self.shown(result.struck.impact_height, "length", given=True)
+        parts = f"engine {self.shown(design.engine, 'force')}"
+        if design.cargo is not None:
+            parts += f", cargo {self.shown(design.cargo, 'force')}"
+        which = "engine" if peak == result.history.engine_peak else "cargo"
+        results = [
+            (
+                "Design reaction",
+                self.shown(result.design_force, "force"),
+                f"static, at {height} above the base; by the {result.governing_method}",
+            ),
+            ("Design procedure", self.shown(design.reaction, "force"), parts),
+            (
+                "Full model",
+                self.shown(peak.reaction, "force"),
+                f"{which} peak; procedure over model {rounded(result.ratio, 3)}",
+            ),
+            self._demand("shear"),
+            self._demand("moment"),
+            (
+                "Pier frequency",
+                self.shown(pier.frequency, "frequency"),
+                f"{self.shown(pier.stiffness, 'stiffness')}, {self.shown(pier.mass, 'mass')}",
+            ),
+        ]
+        return Headline(results=results)
 
+    def _demand(self, name: str) -> tuple[str, Printed, str]:
+        """Return the utilisation where there is a resistance, else the demand."""
+        forces, quantity = self.calculation.member_forces, "force" if name == "shear" else "moment"
+        largest = forces.largest_shear if name == "shear" else forces.largest_moment
+        demand = self.shown(abs(largest.value), quantity)
+        ratio = self.calculation.utilisations.get(name)
+        if ratio is None:
+            return f"Largest {name}", demand, "no resistance given"
+        words = f"{demand}: {verdict(ratio)}"
+        return f"Utilisation in {name}", Printed(rounded(ratio, 3), ""), words
 
-def _demand(calculation: Calculation, name: str) -> tuple[str, Printed, str]:
-    """Return the utilisation where there is a resistance, else the demand."""
-    forces, quantity = calculation.member_forces, "force" if name == "shear" else "moment"
-    largest = forces.largest_shear if name == "shear" else forces.largest_moment
-    demand = printed(abs(largest.value), quantity, calculation.case.inputs.units)
-    ratio = calculation.utilisations.get(name)
-    if ratio is None:
-        return f"Largest {name}", demand, "no resistance given"
-    return f"Utilisation in {name}", Printed(rounded(ratio, 3), ""), f"{demand}: {verdict(ratio)}"
+    def governing_statement(self) -> Block:
+        """Return which contacts are made, which peak governs, and which method the result is of."""
+        history = self.calculation.history
+        contacts = ""
+        if history.cargo_contact_time is None:
+            contacts = "The cargo does not reach the pier: there is no cargo peak. "
+        if history.engine_contact_time is None:
+            contacts += (
+                "The engine does not reach the pier either: its"
+                if contacts
+                else "The engine does not reach the pier before the cargo does: its"
+            )
+            contacts += " peak is the pier’s response to the crumpling of the truck alone. "
+        return Paragraph(
+            f"{contacts}The {self.calculation.governs} peak governs. The design reaction is that "
+            "of the design procedure, which can be followed by hand, or the peak of the full model "
+            f"if that is larger; here it is that of the {self.calculation.governing_method}. "
+            "Member forces, utilisations and the comparison with codes are under this reaction as "
+            "a static force."
+        )
+
+    def warnings(self) -> Block:
+        """Return what a reader must know before relying on the results."""
+        return Notice(heading="Before you rely on this", body=list(limitations(self.calculation)))
+
+    def contents(self) -> Block:
+        """Return the list of contents."""
+        return Contents()
 
 
 def verdict(ratio: float) -> str:
-    """Say what a utilisation means."""
+    """Return what a utilisation means."""
     return "within the resistance" if ratio <= 1.0 else "exceeds the resistance"
 
 
-def governing_statement(calculation: Calculation) -> Block:
-    """Say which contacts are made, which peak governs, and where the result is from."""
-    history = calculation.history
-    contacts = ""
-    if history.cargo_contact_time is None:
-        contacts = "The cargo does not reach the pier: there is no cargo peak. "
-    if history.engine_contact_time is None:
-        contacts += (
-            "The engine does not reach the pier either: its"
-            if contacts
-            else "The engine does not reach the pier before the cargo does: its"
+def limitations(calculation: Calculation) -> Iterator[str]:
+    """Yield all that limits the results, a sentence each, the user's own notes last."""
+    case = calculation.case
+    for name, ratio in calculation.utilisations.items():
+        if ratio > 1.0:
+            yield f"The {name} is {rounded(ratio, 3)} times the resistance."
+    limits = "; ".join(limits_of_the_study(calculation, case.inputs.units))
+    if limits:
+        yield (
+            "The design procedure was not checked for this case; compare it with the full model. "
+            f"{limits[:1].upper()}{limits[1:]}."
         )
-        contacts += " peak is the pier’s response to the crumpling of the truck alone. "
-    return Paragraph(
-        f"{contacts}The {calculation.governs} peak governs. The design reaction is that of the "
-        "design procedure, which can be followed by hand, or the peak of the full model if that "
-        f"is larger; here it is that of the {calculation.decisive}. Member forces, utilisations "
-        "and the comparison with codes are under this reaction as a static force."
-    )
+    status = case.truck_file.status
+    if status != "read":
+        yield (
+            f"The truck {case.truck.name} is {STATUS_WORDS[status]} ({case.truck_file.source}). "
+            "The results are no better than its parameters."
+        )
+    if case.inputs.assumed:
+        names = ", ".join(BY_KEY[key].meaning for key in case.inputs.assumed)
+        yield f"Assumed, not given by any source: {names}."
+    yield from case.inputs.notes
 
 
-def warnings(calculation: Calculation) -> Block:
-    """Return what a reader must know before relying on the results."""
-    return Notice(heading="Before you rely on this", body=cautions(calculation))
+def limits_of_the_study(calculation: Calculation, system: str) -> list[str]:
+    """Return a clause for each limit of the study behind the procedure that the case exceeds.
 
-
-def contents() -> Block:
-    """Return the list of contents."""
-    return Contents()
+    Parameters
+    ----------
+    calculation : Calculation
+        The calculation.
+    system : {"SI", "US"}
+        Units to print in.
+    """
+    clauses = []
+    for name, *values in calculation.design.outside:
+        meaning, _, quantity, _ = SYMBOLS[name]
+        shown, least, most = (printed(value, quantity, system, given=True) for value in values)
+        clauses.append(f"{meaning} {shown} outside the studied {least.number} to {most}")
+    if calculation.design.overlapping:
+        clauses.append("the cargo meets the pier before the engine lets go")
+    return clauses

@@ -2,7 +2,7 @@
 
 import math
 
-from pierimpact.design.formulas import approach_speed
+from pierimpact.design.procedure import contact_speed
 from pierimpact.teaching.checker import Question, Trap
 from pierimpact.teaching.questions.common import (
     BODY,
@@ -30,7 +30,7 @@ def _stopping_speed(force: float, mass: float, length: float) -> float:
 
 def _speed_left(force: float, mass: float, length: float) -> float:
     """Return what is left of 60 km/h when a constant force has slowed a mass over a length."""
-    return float(approach_speed(SLOW, force / mass, length))
+    return float(contact_speed(SLOW, force / mass, length))
 
 
 def _grows_with_mass() -> str:

@@ -1,0 +1,191 @@
+"""A column under a unit force at the impact height, for each pair of ends.
+
+The deflection under a unit force, the shape function and its integral (Eqs 1–3 of the source
+paper), by the force method of beam theory with flexure and shear. Derived here. What each symbol
+stands for is in `pierimpact.symbols`, how the lines are printed in `pierimpact.handcalc`. Moments
+are per unit of force; the shape below and above the impact is a polynomial in s, the distance
+from the base or from the top over the height of the column.
+"""
+
+from typing import Any, TypeAlias
+
+from pierimpact.handcalc import Calculation
+
+Real: TypeAlias = Any  # a float, or an array
+Values: TypeAlias = dict[str, Real]
+
+
+def other_end(R: Real, M: Real, H: Real, here: Real, there: Real) -> tuple[Real, ...]:
+    """Return force and moment at the other end, and the moment at the impact.
+
+    From force and moment at one end, and the distances of the impact from here and from there.
+    """
+    other_R = 1 - R  # equilibrium
+    other_M = M + R * H - there  # equilibrium
+    Mn = M + R * here  # equilibrium
+    return other_R, other_M, Mn
+
+
+def stiffness(
+    Rb: Real, Rt: Real, Mb: Real, Mn: Real, Mt: Real,
+    H: Real, z: Real, y: Real, EI: Real, GA: Real,
+) -> tuple[Real, ...]:  # fmt: skip
+    """Return the deflection at the impact, the stiffness, and where on the column the impact is.
+
+    The deflection is twice the work of the unit force: the integrals of the squares of moment and
+    shear, which change linearly or not at all between base, impact and top.
+    """
+    xfb = z * (Mb**2 + Mb * Mn + Mn**2) / (3 * EI)  # integral of M² over EI
+    xft = y * (Mn**2 + Mn * Mt + Mt**2) / (3 * EI)  # integral of M² over EI
+    xs = (z * Rb**2 + y * Rt**2) / GA  # integral of the squared shear over κGA
+    xn = xfb + xft + xs
+    kp = 1 / xn  # Eq. 3 of the source paper
+    sb = z / H
+    st = y / H
+    return xfb, xft, xs, xn, kp, sb, st
+
+
+def fixed_end(M: Real, R: Real, H: Real, EI: Real, GA: Real, xn: Real) -> tuple[Real, ...]:
+    """Return the coefficients of s², s³ and s beside a fixed end."""
+    c2 = -M * H**2 / (2 * EI * xn)  # moment at the end
+    c3 = -R * H**3 / (6 * EI * xn)  # force at the end
+    c1 = R * H / (GA * xn)  # shear at the end, which does not rotate
+    return c2, c3, c1
+
+
+def pinned_end(R: Real, s: Real, H: Real, EI: Real, xn: Real) -> tuple[Real, Real]:
+    """Return the coefficients of s³ and s beside a pinned end."""
+    c3 = -R * H**3 / (6 * EI * xn)  # force at the end
+    c1 = (1 - c3 * s**3) / s  # 1 at the impact
+    return c3, c1
+
+
+def free_end(s: Real, other_s: Real, other_c2: Real, other_c3: Real) -> tuple[Real, Real]:
+    """Return the coefficient of s and the constant beside a free end."""
+    c1 = -2 * other_c2 * other_s - 3 * other_c3 * other_s**2  # tangent to the other part
+    c0 = 1 - c1 * s  # 1 at the impact
+    return c1, c0
+
+
+def integral_cubic(H: Real, s: Real, c1: Real, c2: Real, c3: Real) -> Real:
+    """Return the integral of φ² beside a fixed end."""
+    return H * (
+        c1**2 * s**3 / 3
+        + c1 * c2 * s**4 / 2
+        + (c2**2 + 2 * c1 * c3) * s**5 / 5
+        + c2 * c3 * s**6 / 3
+        + c3**2 * s**7 / 7
+    )
+
+
+def integral_odd(H: Real, s: Real, c1: Real, c3: Real) -> Real:
+    """Return the integral of φ² beside a pinned end."""
+    return H * (c1**2 * s**3 / 3 + 2 * c1 * c3 * s**5 / 5 + c3**2 * s**7 / 7)
+
+
+def integral_straight(H: Real, s: Real, c0: Real, c1: Real) -> Real:
+    """Return the integral of φ² beside a free end."""
+    return H * (c0**2 * s + c0 * c1 * s**2 + c1**2 * s**3 / 3)
+
+
+@Calculation
+def fixed_free(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+    """A cantilever from the base."""
+    Rt = 0  # free top
+    Mt = 0  # free top
+    Rb, Mb, Mn = other_end(Rt, Mt, H, y, z)
+    xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
+    cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
+    ct1, ct0 = free_end(st, sb, cb2, cb3)
+    phi2b = integral_cubic(H, sb, cb1, cb2, cb3)  # of the square of φ, exactly
+    phi2t = integral_straight(H, st, ct0, ct1)  # of the square of φ, exactly
+    return locals()
+
+
+@Calculation
+def free_fixed(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+    """A cantilever from the top."""
+    Rb = 0  # free base
+    Mb = 0  # free base
+    Rt, Mt, Mn = other_end(Rb, Mb, H, z, y)
+    xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
+    ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
+    cb1, cb0 = free_end(sb, st, ct2, ct3)
+    phi2b = integral_straight(H, sb, cb0, cb1)  # of the square of φ, exactly
+    phi2t = integral_cubic(H, st, ct1, ct2, ct3)  # of the square of φ, exactly
+    return locals()
+
+
+@Calculation
+def pinned_pinned(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+    """A simply supported column."""
+    Rt = z / H  # equilibrium
+    Rb = 1 - Rt  # equilibrium
+    Mt = 0  # pinned top
+    Mb = 0  # pinned base
+    Mn = Rt * y  # equilibrium
+    xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
+    cb3, cb1 = pinned_end(Rb, sb, H, EI, xn)
+    ct3, ct1 = pinned_end(Rt, st, H, EI, xn)
+    phi2b = integral_odd(H, sb, cb1, cb3)  # of the square of φ, exactly
+    phi2t = integral_odd(H, st, ct1, ct3)  # of the square of φ, exactly
+    return locals()
+
+
+@Calculation
+def fixed_pinned(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+    """A column propped at the top: the top is released, and brought back by its force."""
+    delta10 = z**2 * (3 * H - z) / (6 * EI) + z / GA  # flexure and shear
+    delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
+    Rt = delta10 / delta11  # the top stays in place
+    Mt = 0  # pinned top
+    Rb, Mb, Mn = other_end(Rt, Mt, H, y, z)
+    xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
+    cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
+    ct3, ct1 = pinned_end(Rt, st, H, EI, xn)
+    phi2b = integral_cubic(H, sb, cb1, cb2, cb3)  # of the square of φ, exactly
+    phi2t = integral_odd(H, st, ct1, ct3)  # of the square of φ, exactly
+    return locals()
+
+
+@Calculation
+def pinned_fixed(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+    """A column propped at the base: the base is released, and brought back by its force."""
+    delta10 = y**2 * (2 * H + z) / (6 * EI) + y / GA  # flexure and shear
+    delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
+    Rb = delta10 / delta11  # the base stays in place
+    Mb = 0  # pinned base
+    Rt, Mt, Mn = other_end(Rb, Mb, H, z, y)
+    xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
+    cb3, cb1 = pinned_end(Rb, sb, H, EI, xn)
+    ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
+    phi2b = integral_odd(H, sb, cb1, cb3)  # of the square of φ, exactly
+    phi2t = integral_cubic(H, st, ct1, ct2, ct3)  # of the square of φ, exactly
+    return locals()
+
+
+@Calculation
+def fixed_fixed(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+    """Both ends fixed: the top may move but not rotate, and is brought back by its force."""
+    delta10 = z**2 * (3 * H - 2 * z) / (12 * EI) + z / GA  # flexure and shear; it cannot rotate
+    delta11 = H**3 / (12 * EI) + H / GA  # flexure and shear; it cannot rotate
+    Rt = delta10 / delta11  # the top stays in place
+    Mt = z**2 / (2 * H) - Rt * H / 2  # the top does not rotate
+    Rb, Mb, Mn = other_end(Rt, Mt, H, y, z)
+    xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
+    cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
+    ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
+    phi2b = integral_cubic(H, sb, cb1, cb2, cb3)  # of the square of φ, exactly
+    phi2t = integral_cubic(H, st, ct1, ct2, ct3)  # of the square of φ, exactly
+    return locals()
+
+
+#: By the conditions of base and top; any other pair leaves the column a mechanism.
+BY_ENDS = {
+    ("fixed", "fixed"): fixed_fixed,
+    ("fixed", "free"): fixed_free,
+    ("fixed", "pinned"): fixed_pinned,
+    ("free", "fixed"): free_fixed,
+    ("pinned", "fixed"): pinned_fixed,
+    ("pinned", "pinned"): pinned_pinned,
+}
