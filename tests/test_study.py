@@ -99,11 +99,11 @@ def test_the_file_is_up_to_date(outcome):
         np.testing.assert_allclose(found, stated, rtol=1e-9)
 
 
-def test_approach_speeds_of_the_file(outcome):
+def test_contact_speeds_of_the_file(outcome):
     case = select(domain.sample(study.SIZE, study.SEED), slice(0, 60))
     found, stated = (
         study.speed_errors(case),
-        outcome["error of the approach speed over the truck's"],
+        outcome["error of the contact speed over the truck's"],
     )
     for level in LEVELS:
         for body in ("engine", "cargo"):

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.checks import InputError, positive
-from pierimpact.collision.history import CollisionHistory, between
+from pierimpact.collision.history import CollisionHistory, hermite
 
 Array = NDArray[np.float64]
 
@@ -74,7 +74,7 @@ def largest_average_force(history: CollisionHistory, window: float) -> AverageFo
 
 def _at(t: Array | float, time: Array, impulse: Array, force: Array) -> Array:
     """Return the impulse at any times; it is zero before first touch, and force is its slope."""
-    return between(time, impulse, force, np.maximum(t, 0.0))
+    return hermite(time, impulse, force, np.maximum(t, 0.0))
 
 
 def _before(t: Array, time: Array, force: Array) -> Array:

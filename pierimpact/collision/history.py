@@ -9,26 +9,24 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.collision.coasting import coasted, ringing
+from pierimpact.collision.coasting import coasting_position, free_vibration
 from pierimpact.collision.parameters import Collision
-from pierimpact.collision.regimes import Law, Position, State
+from pierimpact.collision.regimes import LinearMotion, Position, State
 from pierimpact.collision.series import ARRAYS, FLOATS, TERMS
-from pierimpact.collision.stepping import expand, longest_step, motions
+from pierimpact.collision.stepping import BODY, ENGINE, PIER, expand, longest_step, rates
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
 
-RecordedStep: TypeAlias = tuple[State, Law, float]  # start, equations of motion, length [s]
+RecordedStep: TypeAlias = tuple[State, LinearMotion, float]  # start, equations, length [s]
 Array: TypeAlias = NDArray[np.float64]
 
-ENGINE, BODY, PIER = range(3)  # as in a series
-
-# No mode turns by more than three radians in a piece: a chord between two of these samples misses
-# its crest by less than 0.2 % of the amplitude.
+# No mode advances by more than three radians in a piece: the chord between two of these samples
+# misses a maximum by less than 0.2 % of the amplitude.
 FRACTIONS = np.linspace(0.0, 1.0, 25)
 
 
-def between(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
-    """Return a motion between its samples, by the cubic that has their values and rates.
+def hermite(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
+    """Interpolate a motion between its samples by cubic Hermite polynomials.
 
     Parameters
     ----------
@@ -113,7 +111,7 @@ class CollisionHistory:
     ----------
     collision : Collision
         Truck, pier and speed.
-    steps : list of (State, Law, float)
+    steps : list of (State, LinearMotion, float)
         Start, equations of motion, and length [s] of each step.
     end : State
         The last state.
@@ -170,7 +168,7 @@ class CollisionHistory:
     @cached_property
     def time(self) -> Array:
         """Time after first touch, shape (n,) [s]."""
-        starts = self._column(lambda state, law: state.time)
+        starts = self._column(lambda state: state.time)
         return self._flat(starts + self._lengths * FRACTIONS)
 
     @cached_property
@@ -211,25 +209,21 @@ class CollisionHistory:
     @cached_property
     def engine_force(self) -> Array:
         """Force F1 of spring 1, shape (n,) [N]."""
-        intercept = self._column(lambda state, law: state.engine.intercept)
-        slope = self._column(lambda state, law: state.engine.slope)
-        return self._flat(intercept + slope * self._series(ENGINE))
+        return self._flat(self._motion.intercept1 + self._motion.slope1 * self._series(ENGINE))
 
     @cached_property
     def body_force(self) -> Array:
         """Force F2 of spring 2, shape (n,) [N]."""
-        intercept = self._column(lambda state, law: state.body.intercept)
-        slope = self._column(lambda state, law: state.body.slope)
-        return self._flat(intercept + slope * self._series(BODY))
+        return self._flat(self._motion.intercept2 + self._motion.slope2 * self._series(BODY))
 
     @cached_property
     def friction_force(self) -> Array:
         """Friction F_s against the body's motion, shape (n,) [N]."""
-        # Where the body sticks the friction is what its motion asks for.
+        # Where the body sticks the friction is what holds it.
         held_mass = self.truck.body_mass if self._friction_on_pier else 0.0
         held = -self.body_force - held_mass * self._flat(self._series(PIER, order=2))
-        stuck = self._flat(self._column(lambda state, law: state.stuck) + 0.0 * FRACTIONS)
-        return self._flat(self._sliding_friction + 0.0 * FRACTIONS) + stuck * held
+        stuck = self._flat(self._column(lambda state: state.stuck) + 0.0 * FRACTIONS)
+        return self._flat(self._motion.friction + 0.0 * FRACTIONS) + stuck * held
 
     @cached_property
     def contact_force(self) -> Array:
@@ -290,13 +284,11 @@ class CollisionHistory:
         momentum = truck.engine_mass * self.engine_velocity + truck.body_mass * self.body_velocity
         impulse = self.impulse
         if not self._friction_on_pier:
-            # A body that sticks to the road is held by minus the force of its spring.
-            stuck = self._column(lambda state, law: state.stuck)
-            intercept = self._column(lambda state, law: state.body.intercept)
-            slope = self._column(lambda state, law: state.body.slope)
+            # The friction on a body that sticks to the road balances its spring.
+            motion, stuck = self._motion, self._column(lambda state: state.stuck)
             impulse = impulse + self._accumulate(
-                (self._sliding_friction - stuck * intercept) * self._lengths * FRACTIONS
-                - stuck * slope * self._series(BODY, order=-1)
+                (motion.friction - stuck * motion.intercept2) * self._lengths * FRACTIONS
+                - stuck * motion.slope2 * self._series(BODY, order=-1)
             )
         return float(np.max(np.abs(momentum + impulse - initial)) / initial)
 
@@ -304,43 +296,44 @@ class CollisionHistory:
     def _friction_on_pier(self) -> bool:
         return self.truck.friction_on == "pier"
 
-    # The arrays below have one row a piece and one column a fraction of it.
+    # The arrays below have one row per piece and one column per fraction of it.
 
     @cached_property
     def _pieces(self) -> list[RecordedStep]:
-        """The steps, cut where the pier rings for longer than a series can follow."""
+        """The steps, cut where the pier vibrates for longer than a series converges."""
         pieces: list[RecordedStep] = []
-        for state, law, length in self.steps:
-            count = max(1, math.ceil(length / longest_step(law, FLOATS) - 1e-9))
-            pieces.append((state, law, length / count))
+        for state, motion, length in self.steps:
+            count = max(1, math.ceil(length / longest_step(motion, FLOATS) - 1e-9))
+            pieces.append((state, motion, length / count))
             for number in range(1, count):
                 t = number * length / count
-                at = coasted(law, state.at, ringing(law, state.at, FLOATS), t, FLOATS)
-                later = state._replace(time=state.time + t, at=at)
-                pieces.append((later, law, length / count))
+                vibration = free_vibration(motion, state.position, FLOATS)
+                position = coasting_position(motion, state.position, vibration, t, FLOATS)
+                later = state._replace(time=state.time + t, position=position)
+                pieces.append((later, motion, length / count))
         return pieces
 
     @cached_property
     def _terms(self) -> tuple[Array, ...]:
         """Terms of the motions' series, each of shape (pieces, terms)."""
-        starts = Position(*np.array([state.at for state, _, _ in self._pieces]).T)
-        laws = Law(*np.array([law for _, law, _ in self._pieces], dtype=float).T)
-        lengths = self._lengths[:, 0]
-        return tuple(
-            terms.T for terms in expand(laws, motions(laws, starts), lengths, TERMS, ARRAYS)
-        )
+        start = Position(*np.array([state.position for state, _, _ in self._pieces]).T)
+        motion = LinearMotion(*(column[:, 0] for column in self._motion))
+        series = expand(motion, rates(motion, start), self._lengths[:, 0], TERMS, ARRAYS)
+        return tuple(terms.T for terms in series)
 
-    def _column(self, value: Callable[[State, Law], float]) -> Array:
-        """Return one value a piece, shape (pieces, 1)."""
-        return np.array([[float(value(state, law))] for state, law, _ in self._pieces])
+    @cached_property
+    def _motion(self) -> LinearMotion:
+        """The equations of motion, each of their numbers of shape (pieces, 1)."""
+        rows = np.array([motion for _, motion, _ in self._pieces], dtype=float)
+        return LinearMotion(*rows.T[:, :, None])
+
+    def _column(self, value: Callable[[State], float]) -> Array:
+        """Return one value per piece, shape (pieces, 1)."""
+        return np.array([[float(value(state))] for state, _, _ in self._pieces])
 
     @cached_property
     def _lengths(self) -> Array:
         return np.array([[length] for _, _, length in self._pieces])
-
-    @cached_property
-    def _sliding_friction(self) -> Array:
-        return self._column(lambda state, law: law.friction)
 
     def _series(self, which: int, order: int = 0, fractions: Array = FRACTIONS) -> Array:
         """Return a motion's derivative of an order, or for −1 its integral from a piece's start.
@@ -364,14 +357,14 @@ class CollisionHistory:
 
     def _largest_crush(self, which: int) -> Array:
         springs = (self.truck.engine_spring, self.truck.body_spring)
-        earlier = self._column(lambda state, law: (state.engine, state.body)[which].largest)
+        earlier = self._column(lambda state: (state.engine, state.body)[which].largest)
         largest = np.maximum(self._series(which), earlier)
-        # Up to the elastic limit nothing is lost, and nothing marks the crush as largest yet.
+        # Below the elastic limit nothing is dissipated, and no largest crush is recorded yet.
         return self._flat(np.maximum(largest, springs[which].elastic_limit))
 
     def _friction_work(self) -> Array:
         path = self._series(BODY) + (0.0 if self._friction_on_pier else self._series(PIER))
-        return self._accumulate(self._sliding_friction * (path - path[:, :1]))
+        return self._accumulate(self._motion.friction * (path - path[:, :1]))
 
     def _damping_work(self) -> Array:
         nodes, weights = np.polynomial.legendre.leggauss(6)

@@ -1,4 +1,4 @@
-"""The regimes of a collision: what holds between two changes, and what a change brings.
+"""The regimes of a collision: the equations of motion in each, and the changes between them.
 
 In a regime every spring is on one straight line and the friction slides, sticks or does not
 act, so the equations of motion are linear.
@@ -16,13 +16,13 @@ from pierimpact.collision.series import Flag, Ops, Real
 
 FREE, ELASTIC, PLATEAU, STEEP = range(4)
 
-# What can end a regime. The body's spring follows three places after the engine's.
+# Events that end a regime; those of the body's spring are numbered three higher.
 UPPER, LOWER, TURN = range(3)  # the crush leaves its line, or turns back
 FORWARD, BACKWARD = 6, 7  # the body comes to rest, or begins to slide
-NONE = -1
+NO_EVENT = -1
 
-FAR = 1e9  # stands for a bound that is never reached, without the NaN of ∞ − ∞
-SAME = 1e-13  # a later swing to the same height, but for so much of it, is no new peak
+NO_BOUND = 1e9  # stands for a bound that is never reached, without the NaN of ∞ − ∞
+PEAK_TOLERANCE = 1e-13  # relative: a later maximum must exceed a peak by this to replace it
 
 
 class Branch(NamedTuple):
@@ -48,52 +48,69 @@ class Position(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where a collision stands: its motion, its regime, and what it has shown so far."""
+    """The state of a collision: position, regime, and contacts and peaks so far."""
 
     time: Real
-    at: Position
+    position: Position
     engine: Branch
     body: Branch
     slip: Real  # direction of sliding: 1, −1, or 0 while it sticks or does not act
     stuck: Flag
-    changed: Real  # time of the last change of regime
-    engine_contact: Real
+    last_change: Real  # time of the last change of regime
+    engine_contact: Real  # time of the first contact; nan before it
     cargo_contact: Real
     engine_peak: Real  # largest x_p before cargo contact
     engine_peak_time: Real
     cargo_peak: Real  # largest x_p from cargo contact on
     cargo_peak_time: Real
 
+    @property
+    def after_cargo_contact(self) -> Flag:
+        """Whether the cargo has met the pier."""
+        return self.cargo_contact == self.cargo_contact
 
-class Law(NamedTuple):
+    def peak(self, ops: Ops) -> Real:
+        """Return the largest x_p so far, of those before or those from cargo contact on."""
+        return ops.where(self.after_cargo_contact, self.cargo_peak, self.engine_peak)
+
+
+class LinearMotion(NamedTuple):
     """The linear equations of motion of one regime.
 
-    x_p'' = wp (F1 + γ F2 + on_pier Fs) − B x_p − C x_p'
-    δ1'' = −w1 F1 − x_p''
-    δ2'' = −w2 (F2 + Fs) − γ x_p''
+    x_p'' = (F1 + γ F2 + on_pier F_s)/m_p − B x_p − C x_p', with B = k_p/m_p and C = c_p/m_p
+    δ1'' = −F1/m1 − x_p''
+    δ2'' = −(F2 + F_s)/m2 − γ x_p''
 
-    γ = 0 where body and pier stick together and move as one mass; w2 = 0 where the body sticks.
+    Where the body sticks, 1/m2 = 0; where it sticks to the pier, both move as one mass, γ = 0
+    and m_p includes m2.
     """
 
-    w1: Real
-    w2: Real
-    wp: Real
+    inverse_m1: Real
+    inverse_m2: Real
+    inverse_mp: Real
     gamma: Real
     b: Real
     c: Real
-    s1: Real
-    s2: Real
+    slope1: Real
+    slope2: Real
     intercept1: Real
     intercept2: Real
     friction: Real
     on_pier: Flag
 
+    def forces(self, position: Position) -> tuple[Real, Real]:
+        """Return the forces F1 and F2 of the springs [N]."""
+        return (
+            self.intercept1 + self.slope1 * position.d1,
+            self.intercept2 + self.slope2 * position.d2,
+        )
+
 
 def branch(spring: Spring, regime: Real, largest: Real, ops: Ops) -> Branch:
     """Return the line of `regime` after a largest crush of `largest` [m].
 
-    The unused spring counts as unloaded from its elastic limit P/k_u, so that first loading is
-    one more ride on the elastic line.
+    The unused spring counts as unloaded from its elastic limit P/k_u, so that first loading
+    follows the elastic line like any reloading.
     """
     where = ops.where
     P, d, k, ku = spring[1:]
@@ -104,28 +121,28 @@ def branch(spring: Spring, regime: Real, largest: Real, ops: Ops) -> Branch:
         largest,
         slope=where(elastic, ku, where(regime == STEEP, k, 0.0)),
         intercept=where(elastic, -ku * residual, where(plateau, P, where(free, 0.0, P - k * d))),
-        lower=where(elastic, residual, -FAR),
-        upper=where(free, residual, where(elastic, largest, where(plateau, d, FAR))),
+        lower=where(elastic, residual, -NO_BOUND),
+        upper=where(free, residual, where(elastic, largest, where(plateau, d, NO_BOUND))),
     )
 
 
 def start(parameters: Parameters, ops: Ops) -> State:
     """Return the state at first touch: both springs at rest, both bodies at full speed."""
-    nought = 0.0 * parameters.speed
-    unknown = nought + math.nan
-    first = ELASTIC + nought
+    zero = 0.0 * parameters.speed
+    unknown = zero + math.nan
+    first = ELASTIC + zero
     return State(
-        time=nought,
-        at=Position(nought, parameters.speed, nought, parameters.speed, nought, nought),
+        time=zero,
+        position=Position(zero, parameters.speed, zero, parameters.speed, zero, zero),
         engine=branch(parameters.engine, first, _elastic_limit(parameters.engine), ops),
         body=branch(parameters.body, first, _elastic_limit(parameters.body), ops),
-        slip=1.0 + nought,
-        stuck=nought != 0.0,
-        changed=nought,
+        slip=1.0 + zero,
+        stuck=zero != 0.0,
+        last_change=zero,
         engine_contact=unknown,
         cargo_contact=unknown,
-        engine_peak=nought,
-        engine_peak_time=nought,
+        engine_peak=zero,
+        engine_peak_time=zero,
         cargo_peak=unknown,
         cargo_peak_time=unknown,
     )
@@ -135,24 +152,24 @@ def _elastic_limit(spring: Spring) -> Real:
     return spring.plateau_force / spring.unloading_stiffness
 
 
-def linearise(parameters: Parameters, state: State, ops: Ops) -> Law:
+def linear_motion(parameters: Parameters, state: State, ops: Ops) -> LinearMotion:
     """Return the equations of motion of the state's regime."""
     where = ops.where
     stuck_to_pier = state.stuck & parameters.on_pier
-    wp = where(
+    inverse_mp = where(
         stuck_to_pier,
         1.0 / (parameters.pier_mass + parameters.body.mass),
         1.0 / parameters.pier_mass,
     )
-    return Law(
-        w1=1.0 / parameters.engine.mass,
-        w2=where(state.stuck, 0.0, 1.0 / parameters.body.mass),
-        wp=wp,
+    return LinearMotion(
+        inverse_m1=1.0 / parameters.engine.mass,
+        inverse_m2=where(state.stuck, 0.0, 1.0 / parameters.body.mass),
+        inverse_mp=inverse_mp,
         gamma=where(stuck_to_pier, 0.0, 1.0),
-        b=wp * parameters.pier_stiffness,
-        c=wp * parameters.pier_damping,
-        s1=state.engine.slope,
-        s2=state.body.slope,
+        b=inverse_mp * parameters.pier_stiffness,
+        c=inverse_mp * parameters.pier_damping,
+        slope1=state.engine.slope,
+        slope2=state.body.slope,
         intercept1=state.engine.intercept,
         intercept2=state.body.intercept,
         friction=state.slip * parameters.friction_force,
@@ -160,23 +177,23 @@ def linearise(parameters: Parameters, state: State, ops: Ops) -> Law:
     )
 
 
-def accelerations(law: Law, at: Position) -> tuple[Real, Real, Real]:
+def accelerations(motion: LinearMotion, position: Position) -> tuple[Real, Real, Real]:
     """Return δ1'', δ2'' and x_p'' [m/s²]."""
-    F1 = law.intercept1 + law.s1 * at.d1
-    F2 = law.intercept2 + law.s2 * at.d2
-    Fs = law.friction
-    ap = law.wp * (F1 + law.gamma * F2 + law.on_pier * Fs) - law.b * at.xp - law.c * at.vp
-    return -law.w1 * F1 - ap, -law.w2 * (F2 + Fs) - law.gamma * ap, ap
+    F1, F2 = motion.forces(position)
+    Fs, gamma = motion.friction, motion.gamma
+    contact_force = F1 + gamma * F2 + motion.on_pier * Fs
+    ap = motion.inverse_mp * contact_force - motion.b * position.xp - motion.c * position.vp
+    return -motion.inverse_m1 * F1 - ap, -motion.inverse_m2 * (F2 + Fs) - gamma * ap, ap
 
 
 def raise_peak(state: State, xp: Real, time: Real, counts: Flag, ops: Ops) -> State:
     """Return the state with its present peak raised to `xp` where that `counts` and is higher."""
     where = ops.where
-    met = state.cargo_contact == state.cargo_contact
-    counts = counts & (xp > where(met, state.cargo_peak, state.engine_peak) + SAME * abs(xp))
-    raises, raises_cargo = counts & ops.negate(met), counts & met
+    counts = counts & (xp > state.peak(ops) + PEAK_TOLERANCE * abs(xp))
     if not ops.some(counts):
         return state
+    after = state.after_cargo_contact
+    raises, raises_cargo = counts & ops.negate(after), counts & after
     return state._replace(
         engine_peak=where(raises, xp, state.engine_peak),
         engine_peak_time=where(raises, time, state.engine_peak_time),
@@ -185,34 +202,36 @@ def raise_peak(state: State, xp: Real, time: Real, counts: Flag, ops: Ops) -> St
     )
 
 
-def change_regime(parameters: Parameters, state: State, law: Law, event: Real, ops: Ops) -> State:
-    """Return the state once `event` has ended the regime of `law`."""
+def change_regime(
+    parameters: Parameters, state: State, motion: LinearMotion, event: Real, ops: Ops
+) -> State:
+    """Return the state once `event` has ended the regime of `motion`."""
     where = ops.where
-    changes = event != NONE
+    changes = event != NO_EVENT
     if not ops.some(changes):
         return state
-    at, time = state.at, state.time
-    engine = change(parameters.engine, state.engine, event, at.d1, ops)
-    body = change(parameters.body, state.body, event - 3, at.d2, ops)
-    slip, stuck, u2 = rub(parameters, law, state, body, event, ops)
+    position, time = state.position, state.time
+    engine = next_branch(parameters.engine, state.engine, event, position.d1, ops)
+    body = next_branch(parameters.body, state.body, event - 3, position.d2, ops)
+    slip, stuck, u2 = update_friction(parameters, motion, state, body, event, ops)
     meets_engine = (engine.regime == STEEP) & (state.engine_contact != state.engine_contact)
     meets_cargo = (body.regime == STEEP) & (state.cargo_contact != state.cargo_contact)
     return state._replace(
-        at=at._replace(u2=u2),
+        position=position._replace(u2=u2),
         engine=engine,
         body=body,
         slip=slip,
         stuck=stuck,
-        changed=where(changes, time, state.changed),
+        last_change=where(changes, time, state.last_change),
         engine_contact=where(meets_engine, time, state.engine_contact),
         cargo_contact=where(meets_cargo, time, state.cargo_contact),
-        cargo_peak=where(meets_cargo, at.xp, state.cargo_peak),
+        cargo_peak=where(meets_cargo, position.xp, state.cargo_peak),
         cargo_peak_time=where(meets_cargo, time, state.cargo_peak_time),
     )
 
 
-def change(spring: Spring, line: Branch, event: Real, crush: Real, ops: Ops) -> Branch:
-    """Return the spring's line after `event`, one of UPPER, LOWER and TURN or none of its own."""
+def next_branch(spring: Spring, line: Branch, event: Real, crush: Real, ops: Ops) -> Branch:
+    """Return the spring's line after `event`, which is UPPER, LOWER, TURN or not one of its own."""
     where = ops.where
     if not ops.some((event >= UPPER) & (event <= TURN)):
         return line
@@ -223,32 +242,33 @@ def change(spring: Spring, line: Branch, event: Real, crush: Real, ops: Ops) -> 
     return branch(spring, regime, where(turn, crush, line.largest), ops)
 
 
-def rub(
-    parameters: Parameters, law: Law, state: State, body: Branch, event: Real, ops: Ops
+def update_friction(
+    parameters: Parameters, motion: LinearMotion, state: State, body: Branch, event: Real, ops: Ops
 ) -> tuple[Real, Flag, Real]:
     """Return the friction's direction, whether it sticks, and the rate of δ2, after `event`."""
-    at = state.at
+    position = state.position
     where, negate = ops.where, ops.negate
-    # While it slides on the road, the springs do not concern it.
+    # Sliding on the road does not depend on the springs.
     if not ops.some((event >= FORWARD) | state.stuck | parameters.on_pier):
-        return state.slip, state.stuck, at.u2
+        return state.slip, state.stuck, position.u2
     cs, m2 = parameters.friction_force, parameters.body.mass
-    F1 = law.intercept1 + law.s1 * at.d1
-    F2 = law.intercept2 + law.s2 * at.d2
-    together = F1 - parameters.pier_stiffness * at.xp - parameters.pier_damping * at.vp
-    hold = -F2 - where(parameters.on_pier, m2 / (m2 + parameters.pier_mass), 0.0) * together
+    F1, F2 = motion.forces(position)
+    # The force that would hold the body to the road, or to the pier in their common motion.
+    resultant = F1 - parameters.pier_stiffness * position.xp - parameters.pier_damping * position.vp
+    share = where(parameters.on_pier, m2 / (m2 + parameters.pier_mass), 0.0)
+    holding = -F2 - share * resultant
 
-    ends = (event == FORWARD) & negate(state.stuck)
-    sticks = ends & (hold <= cs) & (hold >= -cs)
-    forward = (event == FORWARD) & (state.stuck | (hold > cs))
-    backward = (event == BACKWARD) | (ends & (hold < -cs))
+    stops = (event == FORWARD) & negate(state.stuck)
+    sticks = stops & (holding <= cs) & (holding >= -cs)
+    forward = (event == FORWARD) & (state.stuck | (holding > cs))
+    backward = (event == BACKWARD) | (stops & (holding < -cs))
     stuck = (state.stuck & negate(forward | backward)) | sticks
     slip = where(forward, 1.0, where(backward, -1.0, where(stuck, 0.0, state.slip)))
 
-    # Friction on the pier acts while spring 2 is in contact, and begins anew with the contact.
+    # Friction on the pier acts while spring 2 is in contact, and starts again with the contact.
     apart = parameters.on_pier & (body.regime == FREE)
-    anew = parameters.on_pier & (state.body.regime == FREE) & (body.regime != FREE)
-    slip = where(apart, 0.0, where(anew, 1.0, slip))
+    touches = parameters.on_pier & (state.body.regime == FREE) & (body.regime != FREE)
+    slip = where(apart, 0.0, where(touches, 1.0, slip))
     stuck = stuck & negate(apart)
-    rest = where(parameters.on_pier, 0.0, -at.vp)
-    return slip, stuck, where(stuck, rest, at.u2)
+    rate_at_rest = where(parameters.on_pier, 0.0, -position.vp)
+    return slip, stuck, where(stuck, rate_at_rest, position.u2)

@@ -28,7 +28,7 @@ FACTORIALS = np.array([math.factorial(k) for k in range(TERMS)], dtype=float)[:,
 RECIPROCALS = [1.0 / k for k in range(1, TERMS)]
 
 
-class Watched(NamedTuple):
+class EventFunction(NamedTuple):
     """A quantity whose rise above zero ends a regime: level + Σ weight × a motion's derivative."""
 
     event: int
@@ -53,7 +53,7 @@ class Ops(NamedTuple):
     weights: Callable[[Real, int], Terms]  # θ^k/k!
     dot: Callable[[Terms, Terms], Real]  # Σ weights × terms
     fixed: Callable[[list[float], Terms], Real]  # the same, with one set of weights for all
-    rises: Callable[[list[tuple[Watched, Flag]], Sequence[Terms]], list[Rise]]
+    rises: Callable[[list[tuple[EventFunction, Flag]], Sequence[Terms]], list[Rise]]
 
 
 def weights_of_one(theta: float, count: int = TERMS) -> list[float]:
@@ -190,8 +190,8 @@ def rise(terms: Terms, sign: Real, low: Real, high: Real, ops: Ops) -> Real:
     return theta
 
 
-def rises_of_one(flagged: list[tuple[Watched, Flag]], series: Sequence[Terms]) -> list[Rise]:
-    """Return the first rises above zero of the flagged quantities of one collision."""
+def rises_of_one(flagged: list[tuple[EventFunction, Flag]], series: Sequence[Terms]) -> list[Rise]:
+    """Return the first rises above zero of the flagged functions of one collision."""
     found: list[Rise] = []
     width = len(series[0]) - 2
     for (event, order, parts, level), flag in flagged:
@@ -211,14 +211,16 @@ def rises_of_one(flagged: list[tuple[Watched, Flag]], series: Sequence[Terms]) -
     return found
 
 
-def rises_of_all(flagged: list[tuple[Watched, Flag]], series: Sequence[Terms]) -> list[Rise]:
-    """Return the first rises above zero of the flagged quantities of n collisions."""
-    # The quantities of all collisions that are flagged are looked into together.
-    groups = [(watched, np.flatnonzero(flag)) for watched, flag in flagged]
-    groups = [(watched, cases) for watched, cases in groups if len(cases)]
+def rises_of_all(flagged: list[tuple[EventFunction, Flag]], series: Sequence[Terms]) -> list[Rise]:
+    """Return the first rises above zero of the flagged functions of n collisions."""
+    # The flagged functions of all collisions are searched together.
+    groups = [(function, np.flatnonzero(flag)) for function, flag in flagged]
+    groups = [(function, indices) for function, indices in groups if len(indices)]
     if not groups:
         return []
-    terms = np.concatenate([_gather(watched, cases, series) for watched, cases in groups], axis=1)
+    terms = np.concatenate(
+        [_gather(function, indices, series) for function, indices in groups], axis=1
+    )
     due, part, shape = first_suspect(terms, ARRAYS)
     theta, happens = np.where(due, 0.0, NEVER), due
     suspect = np.flatnonzero((part < NEVER) & ~due)
@@ -228,23 +230,23 @@ def rises_of_all(flagged: list[tuple[Watched, Flag]], series: Sequence[Terms]) -
         )
     found: list[Rise] = []
     first, size = 0, len(flagged[0][1])
-    for watched, cases in groups:
-        mine = slice(first, first + len(cases))
+    for function, indices in groups:
+        mine = slice(first, first + len(indices))
         first = mine.stop
         fraction, certain = np.full(size, NEVER), np.zeros(size, dtype=bool)
-        fraction[cases], certain[cases] = theta[mine], happens[mine]
-        found.append((watched.event, fraction, certain))
+        fraction[indices], certain[indices] = theta[mine], happens[mine]
+        found.append((function.event, fraction, certain))
     return found
 
 
-def _gather(watched: Watched, cases: Any, series: Sequence[Terms]) -> Terms:
+def _gather(function: EventFunction, indices: Any, series: Sequence[Terms]) -> Terms:
     width = len(series[0]) - 2
     weighted = [
-        weight[cases] * series[which][watched.order : watched.order + width, cases]
-        for weight, which in watched.parts
+        weight[indices] * series[which][function.order : function.order + width, indices]
+        for weight, which in function.parts
     ]
     terms = sum(weighted[1:], start=weighted[0])
-    terms[0] += watched.level[cases]
+    terms[0] += function.level[indices]
     return terms
 
 

@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.checks import not_negative
 from pierimpact.collision.history import CollisionHistory, RecordedStep
 from pierimpact.collision.parameters import Collision, parameter_chunks
-from pierimpact.collision.regimes import Law, State
-from pierimpact.collision.stepping import follow, follow_all
+from pierimpact.collision.regimes import LinearMotion, State
+from pierimpact.collision.stepping import Outcomes, propagate, propagate_all
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
 
-SHORTEST = 1e-13  # step worth a place in the history; shorter ones are round-off [s]
+SHORTEST = 1e-13  # step recorded; shorter ones are round-off [s]
 
 
 def simulate(
@@ -49,11 +49,11 @@ def simulate(
     collision, duration = Collision(truck, pier, speed), not_negative("duration", duration)
     steps: list[RecordedStep] = []
 
-    def record(state: State, law: Law, length: float) -> None:
+    def record(state: State, motion: LinearMotion, length: float) -> None:
         if length > SHORTEST:
-            steps.append((state, law, length))
+            steps.append((state, motion, length))
 
-    end = follow(collision.parameters, duration, record)
+    end = propagate(collision.parameters, duration, record)
     return CollisionHistory(collision=collision, steps=steps, end=end)
 
 
@@ -122,16 +122,14 @@ def peak_reactions(
         When a value is out of range or the shapes do not broadcast.
     """
     shape, chunks = parameter_chunks(truck, pier_mass, pier_stiffness, damping_ratio, speed)
-    parts = (parameters for _, parameters in chunks)
-    outcomes = follow_all(parts, math.prod(shape), progress=progress)
-    engine_contact, cargo_contact, engine, engine_time, cargo, cargo_time = (
-        outcome.reshape(shape) for outcome in outcomes
-    )
+    parameters = (chunk for _, chunk in chunks)
+    flat = propagate_all(parameters, math.prod(shape), progress=progress)
+    found = Outcomes(*(outcome.reshape(shape) for outcome in flat))
     return PeakReactions(
-        engine=np.multiply(pier_stiffness, engine),
-        cargo=np.multiply(pier_stiffness, cargo),
-        engine_time=engine_time,
-        cargo_time=cargo_time,
-        engine_contact_time=engine_contact,
-        cargo_contact_time=cargo_contact,
+        engine=np.multiply(pier_stiffness, found.engine_peak),
+        cargo=np.multiply(pier_stiffness, found.cargo_peak),
+        engine_time=found.engine_peak_time,
+        cargo_time=found.cargo_peak_time,
+        engine_contact_time=found.engine_contact,
+        cargo_contact_time=found.cargo_contact,
     )

@@ -6,7 +6,7 @@ friction past its regime ends at the instant of the change, found on the series 
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -18,20 +18,20 @@ from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import (
     BACKWARD,
     ELASTIC,
-    FAR,
     FORWARD,
     FREE,
     LOWER,
-    NONE,
+    NO_BOUND,
+    NO_EVENT,
     PLATEAU,
     TURN,
     UPPER,
-    Law,
+    LinearMotion,
     Position,
     State,
     accelerations,
     change_regime,
-    linearise,
+    linear_motion,
     raise_peak,
     start,
 )
@@ -41,42 +41,43 @@ from pierimpact.collision.series import (
     FLOATS,
     NEVER,
     PHASE,
+    EventFunction,
     Flag,
     Ops,
     Real,
     Terms,
-    Watched,
     terms_needed,
 )
 
-ENGINE, BODY, PIER = range(3)  # as in a series
-PIER_TURN = 8  # the pier's displacement is at its top; not a change of regime
+ENGINE, BODY, PIER = range(3)  # order of δ1, δ2 and x_p in a series
+PIER_MAXIMUM = 8  # of its displacement: an event, but not a change of regime
 
 TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative to its scale
-HOLD = 1e-4  # weighs the holding force, whose round-off is larger by the stiffness
-STEPS = 100_000  # no collision of the studied domain takes a hundredth of these
+HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
+STEPS = 100_000  # limit; no collision of the studied domain takes a hundredth of it
 
-Motion: TypeAlias = tuple[Real, Real, Real]  # value, rate, second rate
-Motions: TypeAlias = tuple[Motion, Motion, Motion]  # of δ1, δ2 and x_p
+Rates: TypeAlias = tuple[Real, Real, Real]  # value, first and second rate
 Series: TypeAlias = tuple[Terms, Terms, Terms]  # of δ1, δ2 and x_p
 
 
-def motions(law: Law, at: Position) -> Motions:
+def rates(motion: LinearMotion, position: Position) -> tuple[Rates, Rates, Rates]:
     """Return δ1, δ2 and x_p, each with its first two rates."""
-    a1, a2, ap = accelerations(law, at)
-    return (at.d1, at.u1, a1), (at.d2, at.u2, a2), (at.xp, at.vp, ap)
+    d1, u1, d2, u2, xp, vp = position
+    a1, a2, ap = accelerations(motion, position)
+    return (d1, u1, a1), (d2, u2, a2), (xp, vp, ap)
 
 
-def expand(law: Law, moving: Motions, h: Real, count: int, ops: Ops) -> Series:
+def expand(motion: LinearMotion, initial: Sequence[Rates], h: Real, count: int, ops: Ops) -> Series:
     """Return the first `count` terms of δ1, δ2 and x_p over a step `h`."""
     d1, d2, xp = ops.blank(h, count)
     square = h * h
-    for terms, (value, rate, second) in zip((d1, d2, xp), moving, strict=True):
+    for terms, (value, rate, second) in zip((d1, d2, xp), initial, strict=True):
         terms[0], terms[1], terms[2] = value, rate * h, second * square
     # The equations of motion once more, with the step as the unit of time.
-    g1, g2 = law.w1 * law.s1 * square, law.w2 * law.s2 * square
-    p1, p2 = law.wp * law.s1 * square, law.wp * law.gamma * law.s2 * square
-    b, c, gamma = law.b * square, law.c * h, law.gamma
+    slope1, slope2, gamma = motion.slope1, motion.slope2, motion.gamma
+    g1, g2 = motion.inverse_m1 * slope1 * square, motion.inverse_m2 * slope2 * square
+    p1, p2 = motion.inverse_mp * slope1 * square, motion.inverse_mp * gamma * slope2 * square
+    b, c = motion.b * square, motion.c * h
     for n in range(1, count - 2):
         pier = p1 * d1[n] + p2 * d2[n] - b * xp[n] - c * xp[n + 1]
         xp[n + 2] = pier
@@ -99,17 +100,20 @@ def evaluate(series: Series, h: Real, theta: Real, ops: Ops) -> Position:
     )
 
 
-def longest_step(law: Law, ops: Ops) -> Real:
+def longest_step(motion: LinearMotion, ops: Ops) -> Real:
     """Return the step in which no mode of the regime turns by more than PHASE."""
-    g1, g2 = law.w1 * law.s1, law.w2 * law.s2
-    square = law.b + law.wp * (law.s1 + law.s2) + ops.where(g1 > g2, g1, g2) + law.c * law.c
+    slope1, slope2, c = motion.slope1, motion.slope2, motion.c
+    g1, g2 = motion.inverse_m1 * slope1, motion.inverse_m2 * slope2
+    square = motion.b + motion.inverse_mp * (slope1 + slope2) + ops.where(g1 > g2, g1, g2) + c * c
     return PHASE / ops.lib.sqrt(square)
 
 
-def watch(parameters: Parameters, state: State, law: Law, ops: Ops) -> list[Watched]:
+def event_functions(
+    parameters: Parameters, state: State, motion: LinearMotion, ops: Ops
+) -> list[EventFunction]:
     """Return the quantities that end the regime when they rise above zero [-]."""
     where, some, negate = ops.where, ops.some, ops.negate
-    watched = []
+    functions = []
     per_speed = 1.0 / parameters.speed
     for which, spring, line in (
         (ENGINE, parameters.engine, state.engine),
@@ -117,70 +121,74 @@ def watch(parameters: Parameters, state: State, law: Law, ops: Ops) -> list[Watc
     ):
         first, per_length = 3 * which, 1.0 / spring.plateau_length
         loading = line.regime >= PLATEAU
-        if some(line.upper < FAR):
+        if some(line.upper < NO_BOUND):
             level = -line.upper * per_length - TOLERANCE
-            watched.append(Watched(first + UPPER, 0, ((per_length, which),), level))
+            functions.append(EventFunction(first + UPPER, 0, ((per_length, which),), level))
         if some(line.regime == ELASTIC):
             level = line.lower * per_length - TOLERANCE
-            watched.append(Watched(first + LOWER, 0, ((-per_length, which),), level))
+            functions.append(EventFunction(first + LOWER, 0, ((-per_length, which),), level))
         if some(loading):
-            level = where(loading, -TOLERANCE, -FAR)
-            watched.append(Watched(first + TURN, 1, ((-per_speed, which),), level))
+            level = where(loading, -TOLERANCE, -NO_BOUND)
+            functions.append(EventFunction(first + TURN, 1, ((-per_speed, which),), level))
 
     # Sliding ends where the relative velocity would reverse.
     acts = parameters.friction_force > 0.0
     slides = acts & (state.slip != 0.0)
     if some(slides):
-        level, back = where(slides, -TOLERANCE, -FAR), -state.slip * per_speed
+        level, back = where(slides, -TOLERANCE, -NO_BOUND), -state.slip * per_speed
         parts = ((back, BODY), (where(parameters.on_pier, 0.0, back), PIER))
-        watched.append(Watched(FORWARD, 1, parts, level))
+        functions.append(EventFunction(FORWARD, 1, parts, level))
 
     # Sticking ends where the force that holds the body exceeds c_s, forward or backward. Against
     # the pier it is F2 + m2 x_p'' with F2 constant.
     if some(state.stuck):
-        scale = HOLD / where(acts, parameters.friction_force, 1.0)
-        slope, inertia = scale * law.s2, scale * parameters.body.mass
-        force = scale * law.intercept2 + where(parameters.on_pier, slope * state.at.d2, 0.0)
+        scale = HOLDING_WEIGHT / where(acts, parameters.friction_force, 1.0)
+        slope, inertia = scale * motion.slope2, scale * parameters.body.mass
+        force = scale * motion.intercept2 + where(
+            parameters.on_pier, slope * state.position.d2, 0.0
+        )
         for stuck, order, weight, which in (
             (state.stuck & negate(parameters.on_pier), 0, slope, BODY),
             (state.stuck & parameters.on_pier, 2, inertia, PIER),
         ):
-            level = where(acts & stuck, -HOLD - TOLERANCE, -FAR)
-            watched.append(Watched(FORWARD, order, ((-weight, which),), level - force))
-            watched.append(Watched(BACKWARD, order, ((weight, which),), level + force))
-    return watched
+            level = where(acts & stuck, -HOLDING_WEIGHT - TOLERANCE, -NO_BOUND)
+            functions.append(EventFunction(FORWARD, order, ((-weight, which),), level - force))
+            functions.append(EventFunction(BACKWARD, order, ((weight, which),), level + force))
+    return functions
 
 
-def trial_step(longest: Real, moving: Motions, watched: list[Watched], ops: Ops) -> Real:
-    """Return the longest step, or four times that to where the first watched rate leads."""
+def trial_step(
+    longest: Real, initial: Sequence[Rates], functions: list[EventFunction], ops: Ops
+) -> Real:
+    """Return the longest step, or four times that to the first zero by the initial rates."""
     where, h = ops.where, longest
-    for _, order, parts, level in watched:
+    for _, order, parts, level in functions:
         if order == 2:
             continue
         value, rate = level, 0.0
         for weight, which in parts:
-            value = value + weight * moving[which][order]
-            rate = rate + weight * moving[which][order + 1]
+            value = value + weight * initial[which][order]
+            rate = rate + weight * initial[which][order + 1]
         nears = (value < 0.0) & (rate * h > -4.0 * value)
         h = where(nears, -4.0 * value / where(nears, rate, 1.0), h)
     return h
 
 
 def may_rise(
-    watched: list[Watched], series: Series, spread: list[Real], h: Real, ops: Ops
-) -> list[tuple[Watched, Flag]]:
-    """Return the watched quantities per step, each with whether it may rise above zero.
+    functions: list[EventFunction], series: Series, spread: list[Real], h: Real, ops: Ops
+) -> list[tuple[EventFunction, Flag]]:
+    """Return the functions per step, each with whether it may rise above zero.
 
     No rate departs from its start by more than `spread`, the sum of its further terms, and no
-    motion from its tangent by more than half of that.
+    displacement from its tangent by more than half of that.
     """
     where = ops.where
     flagged = []
-    for quantity in watched:
-        event, order, parts, most = quantity
+    for function in functions:
+        event, order, parts, most = function
         if order:
             parts = tuple([(weight / h**order, which) for weight, which in parts])
-            quantity = Watched(event, order, parts, quantity.level)
+            function = EventFunction(event, order, parts, function.level)
             for weight, which in parts:
                 most = most + weight * series[which][order] + abs(weight) * spread[which]
         else:
@@ -188,90 +196,92 @@ def may_rise(
                 ahead = weight * series[which][1]
                 most = most + weight * series[which][0] + where(ahead > 0.0, ahead, 0.0)
                 most = most + 0.5 * abs(weight) * spread[which]
-        flagged.append((quantity, most > 0.0))
+        flagged.append((function, most > 0.0))
     return flagged
 
 
-def move(parameters: Parameters, state: State, law: Law, ops: Ops) -> tuple[State, Real]:
+def advance(
+    parameters: Parameters, state: State, motion: LinearMotion, ops: Ops
+) -> tuple[State, Real]:
     """Return the state after one step, at most up to the first change, and the step's length."""
     where = ops.where
-    watched, moving = watch(parameters, state, law, ops), motions(law, state.at)
-    longest = longest_step(law, ops)
-    h = trial_step(longest, moving, watched, ops)
+    functions, initial = (
+        event_functions(parameters, state, motion, ops),
+        rates(motion, state.position),
+    )
+    longest = longest_step(motion, ops)
+    h = trial_step(longest, initial, functions, ops)
     count = terms_needed(ops.largest(h / longest))
-    series = expand(law, moving, h, count, ops)
+    series = expand(motion, initial, h, count, ops)
     spread = [ops.fixed(END, ops.sizes(terms[2:])) for terms in series]
-    flagged = may_rise(watched, series, spread, h, ops)
+    flagged = may_rise(functions, series, spread, h, ops)
 
-    # The pier's turn is looked for where it may bring a peak.
+    # A maximum of the pier's displacement matters only where it may exceed the peak so far.
     xp, vp = series[PIER][0], abs(series[PIER][1])
-    met = state.cargo_contact == state.cargo_contact
-    highest = where(met, state.cargo_peak, state.engine_peak)
-    tops = (spread[PIER] > vp) & (xp + vp + spread[PIER] > highest)
-    flagged.append((Watched(PIER_TURN, 1, ((0.0 * h - 1.0, PIER),), 0.0 * h), tops))
+    may_peak = (spread[PIER] > vp) & (xp + vp + spread[PIER] > state.peak(ops))
+    flagged.append((EventFunction(PIER_MAXIMUM, 1, ((0.0 * h - 1.0, PIER),), 0.0 * h), may_peak))
 
-    event, theta, top = NONE + 0.0 * h, 1.0 + 0.0 * h, NEVER + 0.0 * h
+    event, theta, maximum = NO_EVENT + 0.0 * h, 1.0 + 0.0 * h, NEVER + 0.0 * h
     for which, fraction, happens in ops.rises(flagged, series):
-        if which == PIER_TURN:
-            top = where(happens, fraction, NEVER)
+        if which == PIER_MAXIMUM:
+            maximum = where(happens, fraction, NEVER)
         else:
             sooner = fraction < theta
             theta = where(sooner, fraction, theta)
-            event = where(sooner, where(happens, which, NONE), event)
-    passed = top < theta
+            event = where(sooner, where(happens, which, NO_EVENT), event)
+    passed = maximum < theta
     if ops.some(passed):
-        weights = ops.weights(where(passed, top, 0.0), count)
-        time = state.time + top * h
+        weights = ops.weights(where(passed, maximum, 0.0), count)
+        time = state.time + maximum * h
         state = raise_peak(state, ops.dot(weights, series[PIER]), time, passed, ops)
     length = theta * h
-    state = state._replace(time=state.time + length, at=evaluate(series, h, theta, ops))
-    state = raise_peak(state, state.at.xp, state.time, True, ops)
-    return change_regime(parameters, state, law, event, ops), length
+    state = state._replace(time=state.time + length, position=evaluate(series, h, theta, ops))
+    state = raise_peak(state, state.position.xp, state.time, True, ops)
+    return change_regime(parameters, state, motion, event, ops), length
 
 
 def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
     """Say whether no later instant can raise a peak or bring a first contact.
 
-    Either the energy that can still reach the pier does not suffice, or both bodies are out of
-    reach and the pier has swung freely for a whole period. A body in contact with nothing but
-    the pier can only be pushed back, so that a body moving back brings nothing; friction on the
-    pier can drag it forward.
+    Either the energy that can still reach the pier does not suffice, or both bodies have separated
+    from the pier and it has vibrated freely for a whole period. The pier can only push a body
+    back, so that the energy of a body moving back does not count, unless friction on the pier can
+    drag it forward.
     """
     where = ops.where
-    at = state.at
-    v1, v2 = at.u1 + at.vp, at.u2 + at.vp
-    energy = 0.5 * (parameters.pier_stiffness * at.xp**2 + parameters.pier_mass * at.vp**2)
-    energy = energy + where(v1 > 0.0, 0.5 * parameters.engine.mass * v1**2, 0.0)
-    energy = energy + where(
-        (v2 > 0.0) | parameters.on_pier, 0.5 * parameters.body.mass * v2**2, 0.0
-    )
+    engine, body, on_pier = parameters.engine, parameters.body, parameters.on_pier
+    pier_mass, pier_stiffness = parameters.pier_mass, parameters.pier_stiffness
+    d1, u1, d2, u2, xp, vp = state.position
+    v1, v2 = u1 + vp, u2 + vp
+    energy = 0.5 * (pier_stiffness * xp**2 + pier_mass * vp**2)
+    energy = energy + where(v1 > 0.0, 0.5 * engine.mass * v1**2, 0.0)
+    energy = energy + where((v2 > 0.0) | on_pier, 0.5 * body.mass * v2**2, 0.0)
     no_contact: Flag = True
     for spring, line, d, contact in (
-        (parameters.engine, state.engine, at.d1, state.engine_contact),
-        (parameters.body, state.body, at.d2, state.cargo_contact),
+        (engine, state.engine, d1, state.engine_contact),
+        (body, state.body, d2, state.cargo_contact),
     ):
         force = line.intercept + line.slope * d
         energy = energy + 0.5 * force**2 / spring.unloading_stiffness
         crushed = where(d > line.largest, d, line.largest)
-        missing = spring.plateau_force * (spring.plateau_length - crushed)
-        no_contact = no_contact & ((contact == contact) | (missing > energy))
-    met = state.cargo_contact == state.cargo_contact
-    highest = where(met, state.cargo_peak, state.engine_peak)
-    highest = where(highest > 0.0, highest, 0.0)
-    spent = 2.0 * energy <= parameters.pier_stiffness * highest**2 * (1.0 + 1e-9)
+        needed = spring.plateau_force * (spring.plateau_length - crushed)
+        no_contact = no_contact & ((contact == contact) | (needed > energy))
+    peak = state.peak(ops)
+    peak = where(peak > 0.0, peak, 0.0)
+    no_peak = 2.0 * energy <= pier_stiffness * peak**2 * (1.0 + 1e-9)
 
-    swinging = parameters.pier_mass + where(parameters.on_pier, parameters.body.mass, 0.0)
-    period = 2.0 * math.pi * ops.lib.sqrt(swinging / parameters.pier_stiffness)
-    left_engine = (state.engine.regime == FREE) & (v1 <= 0.0)
-    left_body = ((state.body.regime == FREE) & (v2 <= 0.0)) | state.stuck
-    swung = left_engine & left_body & (state.time > state.changed + period)
-    return (no_contact & spent) | swung
+    vibrating_mass = pier_mass + where(on_pier, body.mass, 0.0)
+    period = 2.0 * math.pi * ops.lib.sqrt(vibrating_mass / pier_stiffness)
+    engine_left = (state.engine.regime == FREE) & (v1 <= 0.0)
+    body_left = ((state.body.regime == FREE) & (v2 <= 0.0)) | state.stuck
+    vibrated = engine_left & body_left & (state.time > state.last_change + period)
+    return (no_contact & no_peak) | vibrated
 
 
-def follow(
+def propagate(
     parameters: Parameters,
     duration: float = 0.0,
-    record: Callable[[State, Law, float], None] = lambda state, law, h: None,
+    record: Callable[[State, LinearMotion, float], None] = lambda state, motion, h: None,
 ) -> State:
     """Propagate one collision until nothing more can happen, and to `duration` at least.
 
@@ -282,7 +292,8 @@ def follow(
     duration : float, optional
         Time to propagate at least [s].
     record : callable, optional
-        Called after each step with the state it started from, its law and its length [s].
+        Called after each step with the state it started from, its equations of motion and its
+        length [s].
 
     Returns
     -------
@@ -296,98 +307,97 @@ def follow(
     """
     state = start(parameters, FLOATS)
     for _ in range(STEPS):
-        law = linearise(parameters, state, FLOATS)
-        new, h = coast(parameters, state, law, FLOATS)
-        record(state, law, h)
-        state, h = move(parameters, new, law, FLOATS)
-        record(new, law, h)
+        motion = linear_motion(parameters, state, FLOATS)
+        new, h = coast(parameters, state, motion, FLOATS)
+        record(state, motion, h)
+        state, h = advance(parameters, new, motion, FLOATS)
+        record(new, motion, h)
         if state.time >= duration and finished(parameters, state, FLOATS):
             return state
     raise RuntimeError("the collision did not come to an end")
 
 
-OUTCOMES = (
-    "engine_contact",
-    "cargo_contact",
-    "engine_peak",
-    "engine_peak_time",
-    "cargo_peak",
-    "cargo_peak_time",
-)
+class Outcomes(NamedTuple):
+    """Times of the first contacts, and peaks of x_p with their times, each of shape (n,)."""
+
+    engine_contact: NDArray[np.float64]
+    cargo_contact: NDArray[np.float64]
+    engine_peak: NDArray[np.float64]
+    engine_peak_time: NDArray[np.float64]
+    cargo_peak: NDArray[np.float64]
+    cargo_peak_time: NDArray[np.float64]
 
 
 class Running(NamedTuple):
-    """Collisions under way, side by side."""
+    """Collisions being propagated, side by side."""
 
     parameters: Parameters
     state: State
-    place: NDArray[np.int_]  # among the outcomes
+    column: NDArray[np.int_]  # among the outcomes
     steps: NDArray[np.int_]  # taken so far
 
 
-def follow_all(
-    parts: Iterable[Parameters],
+def propagate_all(
+    chunks: Iterable[Parameters],
     size: int,
-    begin: Callable[[Parameters, Ops], State] = start,
+    initial_state: Callable[[Parameters, Ops], State] = start,
     progress: Callable[[int], object] = lambda count: None,
-) -> NDArray[np.float64]:
+) -> Outcomes:
     """Propagate collisions side by side until nothing more can happen in any.
 
-    Those that are done make room for the next part, so that the arrays neither grow with the
+    Finished collisions make room for the next chunk, so that the arrays neither grow with the
     number of collisions nor run almost empty.
 
     Parameters
     ----------
-    parts : iterable of Parameters
+    chunks : iterable of Parameters
         Some collisions at a time; arrays of shape (m,).
     size : int
-        Number n of the collisions in all parts.
-    begin : callable, optional
+        Number n of the collisions in all chunks.
+    initial_state : callable, optional
         From collisions to the states they start from; first touch unless another is given.
     progress : callable, optional
         Called with the number of collisions done since the last call.
 
     Returns
     -------
-    ndarray, shape (6, n)
-        The OUTCOMES of the last states.
+    Outcomes
+        Arrays of shape (n,), in the order of the collisions.
 
     Raises
     ------
     RuntimeError
         When a collision does not come to an end.
     """
-    outcomes = np.empty((len(OUTCOMES), size))
-    waiting = _started(parts, begin)
+    outcomes = np.empty((len(Outcomes._fields), size))
+    waiting = _running(chunks, initial_state)
     running = next(waiting, None)
-    while running:
-        parameters, state, place, steps = running
-        done = np.zeros(len(place), dtype=bool)
-        # Taking cases out costs about as much as a step: wait until a fifth of them is done.
+    while running and len(running.column):
+        parameters, state, column, steps = running
+        done = np.zeros(len(column), dtype=bool)
+        # Removing collisions costs about as much as a step: wait until a fifth of them is done.
         while 5 * np.count_nonzero(done) <= len(done) and not done.all():
-            law = linearise(parameters, state, ARRAYS)
-            state, _h = coast(parameters, state, law, ARRAYS)
-            state, _h = move(parameters, state, law, ARRAYS)
+            motion = linear_motion(parameters, state, ARRAYS)
+            state, _h = coast(parameters, state, motion, ARRAYS)
+            state, _h = advance(parameters, state, motion, ARRAYS)
             done |= finished(parameters, state, ARRAYS)
             steps = steps + 1
             if steps.max() > STEPS:
                 raise RuntimeError("a collision did not come to an end")
-        outcomes[:, place[done]] = [getattr(state, name)[done] for name in OUTCOMES]
+        outcomes[:, column[done]] = [getattr(state, name)[done] for name in Outcomes._fields]
         progress(int(np.count_nonzero(done)))
-        running = select(Running(parameters, state, place, steps), ~done)
-        if 2 * len(running.place) < CHUNK:
+        running = select(Running(parameters, state, column, steps), ~done)
+        if 2 * len(running.column) < CHUNK:
             more = next(waiting, None)
             running = join(running, more) if more else running
-        if not len(running.place):
-            break
-    return outcomes
+    return Outcomes(*outcomes)
 
 
-def _started(
-    parts: Iterable[Parameters], begin: Callable[[Parameters, Ops], State]
+def _running(
+    chunks: Iterable[Parameters], initial_state: Callable[[Parameters, Ops], State]
 ) -> Iterator[Running]:
     first = 0
-    for parameters in parts:
-        place = np.arange(first, first + len(parameters.speed))
-        first += len(place)
-        yield Running(parameters, begin(parameters, ARRAYS), place, 0 * place)
+    for parameters in chunks:
+        column = np.arange(first, first + len(parameters.speed))
+        first += len(column)
+        yield Running(parameters, initial_state(parameters, ARRAYS), column, 0 * column)

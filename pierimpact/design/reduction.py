@@ -1,18 +1,18 @@
 """The two-degree-of-freedom reduction: one mass striking the pier through its steep spring.
 
 Engine and cargo reach the pier at different times, so that each may be seen alone: a mass m_i
-with the approach speed v_i, the steep spring k_i (unloading on k_ui), and the pier. The source
+with the contact speed v_i, the steep spring k_i (unloading on k_ui), and the pier. The source
 paper announces this reduction; its formulas are not in the surviving text and are derived here.
 
 From the model to the reduction, step by step:
 
 1. Until it meets the pier, body i is slowed by a constant force, P1 for the engine and P2 + c_s
-   for the cargo, over the plateau length d_i. The energy left gives the approach speed
+   for the cargo, over the plateau length d_i. The energy left gives the contact speed
    v_i = √(V² − 2 P1 d_1/m_1) or √(V² − 2 (P2 + c_s) d_2/m_2).
 2. From contact on, δ_i = d_i + y and spring i adds k_i y to the plateau force. With the plateau
    forces set aside, m_i y_i'' = −k_i y on the body, m_p x_p'' + c_p x_p' + k_p x_p = k_i y on the
    pier: a mass, a spring, and the pier.
-3. When y is largest the spring turns to the slope k_ui and lets go at zero force.
+3. At the largest y the spring turns to the slope k_ui, and contact ends at zero force.
 4. Divided by v_i √(k_i m_i), the largest force of the spring on a rigid pier, the peak reaction
    depends on four numbers only: β = f_p/f_i, μ = m_i/m_p, e = √(k_i/k_ui) and ζ. That is the
    amplification S (`exact_amplification`).
@@ -32,10 +32,10 @@ from pierimpact.collision.regimes import (
     start,
 )
 from pierimpact.collision.series import Ops
-from pierimpact.collision.stepping import OUTCOMES, follow_all
+from pierimpact.collision.stepping import propagate_all
 from pierimpact.pier.equivalent import damping_coefficient
 
-AWAY = 1e6  # crush at which the absent body would act, in units of v_i √(m_i/k_i)
+OUT_OF_REACH = 1e6  # distance of the absent body from the pier, in units of v_i √(m_i/k_i)
 
 
 def exact_amplification(
@@ -80,7 +80,7 @@ def exact_amplification(
     pier_mass, pier_stiffness = 1.0 / mu, beta**2 / mu
     parameters = Parameters(
         engine=Spring(one, 0.0 * one, one, one, 1.0 / e**2),
-        body=Spring(one, one, AWAY * one, one, one),
+        body=Spring(one, one, OUT_OF_REACH * one, one, one),
         friction_force=one,
         on_pier=one < 0.0,
         pier_mass=pier_mass,
@@ -88,7 +88,7 @@ def exact_amplification(
         pier_damping=damping_coefficient(pier_mass, pier_stiffness, zeta),
         speed=one,
     )
-    peak = follow_all(in_chunks(parameters), len(beta), _at_contact)[OUTCOMES.index("engine_peak")]
+    peak = propagate_all(in_chunks(parameters), len(beta), _at_contact).engine_peak
     found: NDArray[np.float64] = (pier_stiffness * peak).reshape(arrays[0].shape)
     return found
 
@@ -97,7 +97,7 @@ def _at_contact(parameters: Parameters, ops: Ops) -> State:
     """Return the state in which the mass meets the pier, and the other body rests out of reach."""
     one = parameters.speed
     return start(parameters, ops)._replace(
-        at=Position(one, one, -AWAY * one, 0.0 * one, 0.0 * one, 0.0 * one),
+        position=Position(one, one, -OUT_OF_REACH * one, 0.0 * one, 0.0 * one, 0.0 * one),
         engine=branch(parameters.engine, STEEP * one, one, ops),
         body=branch(parameters.body, FREE * one, one, ops),
         slip=0.0 * one,

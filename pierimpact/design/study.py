@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.groups import select, single
 from pierimpact.collision.parameters import Collision, Parameters, Spring, in_chunks
-from pierimpact.collision.regimes import STEEP, Law, State
-from pierimpact.collision.stepping import OUTCOMES, follow, follow_all
+from pierimpact.collision.regimes import STEEP, LinearMotion, State
+from pierimpact.collision.stepping import propagate, propagate_all
 from pierimpact.design import domain, procedure
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reduction import exact_amplification
@@ -58,11 +58,9 @@ class Reactions(NamedTuple):
 
 def full_model(parameters: Parameters) -> Reactions:
     """Return the peak reactions by the full model."""
-    peaks = dict(
-        zip(OUTCOMES, follow_all(in_chunks(parameters), len(parameters.speed)), strict=True)
-    )
-    engine = parameters.pier_stiffness * peaks["engine_peak"]
-    cargo = parameters.pier_stiffness * peaks["cargo_peak"]
+    peaks = propagate_all(in_chunks(parameters), len(parameters.speed))
+    engine = parameters.pier_stiffness * peaks.engine_peak
+    cargo = parameters.pier_stiffness * peaks.cargo_peak
     return Reactions(engine, cargo, np.fmax(engine, cargo))
 
 
@@ -125,14 +123,14 @@ def contact_speeds(parameters: Parameters) -> tuple[Array, Array]:
     for i in range(len(parameters.speed)):
         found = speeds[:, i]
 
-        def record(state: State, law: Law, h: float, found: Array = found) -> None:
-            at = state.at
+        def record(state: State, motion: LinearMotion, h: float, found: Array = found) -> None:
+            position = state.position
             if np.isnan(found[0]) and state.engine.regime == STEEP:
-                found[0] = at.u1 + at.vp
+                found[0] = position.u1 + position.vp
             if np.isnan(found[1]) and state.body.regime == STEEP:
-                found[1] = at.u2 + at.vp
+                found[1] = position.u2 + position.vp
 
-        follow(single(parameters, i), record=record)
+        propagate(single(parameters, i), record=record)
     return speeds[0], speeds[1]
 
 

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.collision.history import between
+from pierimpact.collision.history import hermite
 from pierimpact.plots.schematic import SWING, Frame, Scene
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.vehicle.crush import CrushSpring
@@ -53,7 +53,7 @@ class Animation:
     @cached_property
     def _frames(self) -> Array:
         history, truck = self.scenario.history, self.scenario.truck
-        pier = between(history.time, history.pier_displacement, history.pier_velocity, self.times)
+        pier = hermite(history.time, history.pier_displacement, history.pier_velocity, self.times)
         series = [
             history.engine_crush,
             history.body_crush,
