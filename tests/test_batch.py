@@ -265,7 +265,7 @@ def test_units_of_the_summary(tmp_path, systems):
     for index, system in enumerate(systems):
         case = write_case(tmp_path / f"{index}.yaml", units=system)
         rows.append(Row(case.stem, calculate(read_case(case)), []))
-    page = "".join(block.to_html() for block in summary_blocks(rows))
+    page = "".join(block._repr_html_() for block in summary_blocks(rows))
     system = "US" if systems == ["US", "US"] else "SI"
     assert ("this table is in SI" in page) == (systems != ["US", "US"])
     reader = csv.DictReader(io.StringIO(summary_csv(rows), newline=""))
@@ -300,7 +300,7 @@ def test_the_summary_says_what_is_outside_the_study(tmp_path, units, words):
     case = write_case(tmp_path / "fast.yaml", speed="117 km/h", units=units)
     inside = write_case(tmp_path / "inside.yaml", units=units)
     rows = [Row(path.stem, calculate(read_case(path)), []) for path in (case, inside)]
-    page = "".join(block.to_html() for block in summary_blocks(rows))
+    page = "".join(block._repr_html_() for block in summary_blocks(rows))
     remarks = [row["remarks"] for row in csv.DictReader(io.StringIO(summary_csv(rows), newline=""))]
     assert (
         re.search(r"speed [\d.]+ (km/h|mph) outside the studied", remarks[0])[1] == words.split()[1]
@@ -317,7 +317,7 @@ def test_a_project_of_their_own_is_a_column(tmp_path):
         rows.append(Row(name, calculate(read_case(case)), []))
 
     def heads(rows):
-        page = "".join(block.to_html() for block in summary_blocks(rows))
+        page = "".join(block._repr_html_() for block in summary_blocks(rows))
         return re.findall(r'<th scope="col"[^>]*>(.*?)</th>', page)
 
     assert "Project" in heads(rows)

@@ -5,24 +5,23 @@ of pandoc turns the notebook's prose and all mathematics into HTML with MathML, 
 """
 
 import datetime
-import html
 import importlib.util
 import re
 import subprocess
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import typst
 from jinja2 import Environment
+from markupsafe import Markup
 from nbconvert.exporters.templateexporter import TemplateExporter
 from nbformat import NotebookNode, v4
 from pypandoc import get_pandoc_path
 from traitlets import default
 
-from pierimpact.report.document.blocks import SHEET_MIME, TYPST_MIME, Block
-from pierimpact.report.document.markup import typst_string
+from pierimpact.report.document.blocks import BLOCK_MIME, Block, for_html
 from pierimpact.resources import shipped
 
 _MARKDOWN = "markdown-citations-yaml_metadata_block"
@@ -40,11 +39,10 @@ def notebook_of(blocks: Iterable[Block]) -> NotebookNode:
 
 
 class _SheetExporter(TemplateExporter):
-    """What the two exporters share: the outputs and prose of a notebook as pieces of a sheet."""
+    """What the two exporters share: the outputs and prose of a notebook as blocks of a sheet."""
 
-    piece_mime: str
+    own_mime = ""  #: of outputs that go into the document as they are
     pandoc_options: tuple[str, ...]
-    math: re.Pattern[str]
 
     @default("extra_template_basedirs")
     def _default_extra_template_basedirs(self) -> list[str]:
@@ -57,48 +55,42 @@ class _SheetExporter(TemplateExporter):
         return nb, resources
 
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
-        """Return what the template needs: the pieces, and what the title block says."""
+        """Return what the template needs: the blocks, and what the title block says."""
         sheet: dict[str, Any] = {
             "title": _title(nb),
             "date": "2000-01-01",
             "paper": "a4",
             "landscape": False,
-            "entries": {},
+            "entries": [],
         }
-        pieces = []
+        blocks = list(self._blocks(nb))
+        for block in blocks:
+            if block["type"] == "TitleBlock":
+                sheet |= block
+        self._convert(blocks)
+        return sheet | {"blocks": blocks}
+
+    def _blocks(self, nb: NotebookNode) -> Iterator[dict[str, Any]]:
+        """Yield the data of a notebook's blocks, with its prose as blocks among them."""
         for cell in nb.cells:
             if cell.cell_type == "markdown":
-                pieces.append(("markdown", cell.source))
+                yield {"type": "Prose", "markdown": cell.source}
             for output in cell.get("outputs", []):
                 data = output.get("data", {})
-                sheet |= data.get(SHEET_MIME, {})
-                if self.piece_mime in data:
-                    pieces.append(("ready", data[self.piece_mime]))
+                if BLOCK_MIME in data:
+                    yield data[BLOCK_MIME]
+                elif self.own_mime in data:
+                    yield {"type": "Prose", "converted": data[self.own_mime]}
                 elif "text/markdown" in data:
-                    pieces.append(("markdown", data["text/markdown"]))
-        return sheet | {"pieces": self._converted(pieces)}
+                    yield {"type": "Prose", "markdown": data["text/markdown"]}
 
-    def _converted(self, pieces: list[tuple[str, str]]) -> list[str]:
-        """Return the pieces with prose and mathematics converted, by one call of pandoc."""
-        prose = [text for kind, text in pieces if kind == "markdown"]
-        ready = [text for kind, text in pieces if kind == "ready"]
-        formulas = [formula for text in ready for formula in self._formulas(text)]
-        converted = self._pandoc([*prose, *formulas])
-        prose_out, formulas_out = iter(converted[: len(prose)]), iter(converted[len(prose) :])
-        return [
-            next(prose_out)
-            if kind == "markdown"
-            else self.math.sub(lambda match: self._formula(match, next(formulas_out)), text)
-            for kind, text in pieces
-        ]
-
-    def _formulas(self, text: str) -> list[str]:
-        """Return the formulas of a ready piece as pandoc's Markdown."""
-        raise NotImplementedError
-
-    def _formula(self, match: re.Match[str], converted: str) -> str:
-        """Return what a formula is replaced by."""
-        raise NotImplementedError
+    def _convert(self, blocks: list[dict[str, Any]]) -> None:
+        """Add to prose and mathematics what one call of pandoc makes of them."""
+        parts = [(part, text) for part in _parts(blocks) if (text := _markdown(part)) is not None]
+        converted = self._pandoc([text for _, text in parts])
+        for (part, _), text in zip(parts, converted, strict=True):
+            formula = part["type"] != "Prose"
+            part["converted"] = text.removeprefix("<p>").removesuffix("</p>") if formula else text
 
     def _pandoc(self, pieces: list[str]) -> list[str]:
         done = subprocess.run(
@@ -113,6 +105,28 @@ class _SheetExporter(TemplateExporter):
         return [piece.strip() for piece in re.split(rf"(?:<p>)?{_CUT}(?:</p>)?", done.stdout)]
 
 
+def _parts(data: Any) -> Iterator[dict[str, Any]]:
+    """Yield the parts in the data of blocks, each before what is in it."""
+    if isinstance(data, dict):
+        yield data
+        data = list(data.values())
+    if isinstance(data, list):
+        for each in data:
+            yield from _parts(each)
+
+
+def _markdown(part: dict[str, Any]) -> str | None:
+    """Return a part in pandoc's Markdown, if it is for pandoc to convert."""
+    match part:
+        case {"type": "Prose", "markdown": str(prose)}:
+            return prose
+        case {"type": "Tex", "source": formula}:
+            return f"${formula}$"
+        case {"type": "Equation", "tex": formula}:
+            return f"$${formula}$$"
+    return None
+
+
 class SheetHTMLExporter(_SheetExporter):
     """One self-contained HTML file: figures inside, mathematics as MathML, no script."""
 
@@ -120,35 +134,38 @@ class SheetHTMLExporter(_SheetExporter):
     file_extension = ".html"
     output_mimetype = "text/html"
     template_name = "pierimpact-html"
-    piece_mime = "text/html"
+    own_mime = "text/html"
     pandoc_options = ("--to=html5", "--mathml", "--number-sections", "--shift-heading-level-by=1")
-    math = re.compile(r'<(span|div) class="math( display)?">\\[(\[](.*?)\\[)\]]</\1>', re.DOTALL)
 
     def _create_environment(self) -> Environment:
-        environment: Environment = super()._create_environment()  # type: ignore[no-untyped-call]
+        environment = for_html(super()._create_environment())  # type: ignore[no-untyped-call]
         environment.filters["css_string"] = _css_string
         return environment
 
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
         sheet = super()._sheet(nb)
-        # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
-        page = re.sub(r"<annotation .*?</annotation>", "", "\n".join(sheet["pieces"]), flags=re.S)
+        _number(sheet["blocks"])
+        prose = [block for block in sheet["blocks"] if block["type"] == "Prose"]
         if not sheet["entries"]:  # no calculation sheet: its first heading is a title
-            page = re.sub(r'<span\s+class="header-section-number">[^<]*</span>\s*', "", page)
-        return sheet | {"pieces": _with_contents(_numbered(page))}
+            for block in prose:
+                block["converted"] = re.sub(
+                    r'<span\s+class="header-section-number">[^<]*</span>\s*', "", block["converted"]
+                )
+        headings = re.findall(
+            r'<h2 [^>]*id="([^"]+)">\s*<span\s+class="header-section-number">([^<]*)</span>'
+            r"\s*(.*?)</h2>",
+            "\n".join(block["converted"] for block in prose),
+            re.DOTALL,
+        )
+        for block in sheet["blocks"]:
+            if block["type"] == "Contents":
+                block["headings"] = headings
+        return sheet
 
-    def _formulas(self, text: str) -> list[str]:
-        marks = {"": "$", " display": "$$"}
-        return [
-            f"{mark}{html.unescape(formula)}{mark}"
-            for mark, formula in (
-                (marks[match[2] or ""], match[3]) for match in self.math.finditer(text)
-            )
-        ]
-
-    def _formula(self, match: re.Match[str], converted: str) -> str:
-        formula = converted.removeprefix("<p>").removesuffix("</p>")
-        return f'<div class="math">{formula}</div>' if match[2] else formula
+    def _pandoc(self, pieces: list[str]) -> list[str]:
+        # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
+        annotation = re.compile(r"<annotation .*?</annotation>", re.DOTALL)
+        return [annotation.sub("", piece) for piece in super()._pandoc(pieces)]
 
 
 def _title(nb: NotebookNode) -> str:
@@ -158,58 +175,34 @@ def _title(nb: NotebookNode) -> str:
     return heading[1].strip() if heading else "Notebook"
 
 
-def _numbered(page: str) -> str:
-    """Return the page with equations, figures and tables numbered in the order they come."""
+def _number(blocks: list[dict[str, Any]]) -> None:
+    """Give equations, figures and tables, and what refers to them, numbers in their order."""
+    parts = list(_parts(blocks))
     counts: Counter[str] = Counter()
     numbers: dict[str, str] = {}
-    anchor = ""
-
-    def count(match: re.Match[str]) -> str:
-        nonlocal anchor
-        if match[1]:
-            anchor = match[1]
-            return match[0]
-        kind = match[2]
-        counts[kind] += 1
-        number = f"({counts[kind]})" if kind == "Equation" else str(counts[kind])
-        numbers[anchor] = number
-        words = number if kind == "Equation" else f"{kind}&nbsp;{number}."
-        return f'<span class="number">{words}</span>'
-
-    page = re.sub(
-        r'<(?:table|figure|div)\b[^>]* id="([^"]+)"[^>]*>|'
-        r'<span class="number" data-count="(\w+)">.*?</span>',
-        count,
-        page,
-    )
-    return re.sub(
-        r'(<a\s+href="#([^"]+)">)(.*?)</a>',
-        lambda link: (
-            f"{link[1]}{link[3]}&nbsp;{numbers[link[2]]}</a>" if link[2] in numbers else link[0]
-        ),
-        page,
-    )
+    for part in parts:
+        kind = part["type"]
+        if kind in ("Equation", "Figure", "Table"):
+            counts[kind] += 1
+            part["number"] = f"({counts[kind]})" if kind == "Equation" else str(counts[kind])
+            numbers[part["label"]] = part["number"]
+    for part in parts:
+        if part["type"] == "Ref":
+            part["number"] = numbers.get(part["label"])
+        elif part["type"] == "Prose":
+            part["converted"] = re.sub(
+                r'(<a\s+href="#([^"]+)">.*?)</a>',
+                lambda link: (
+                    f"{link[1]}&nbsp;{numbers[link[2]]}</a>" if link[2] in numbers else link[0]
+                ),
+                part["converted"],
+            )
 
 
 def _css_string(text: str) -> str:
     """Return text for a string of a style sheet, short enough for the head of a page."""
     short = text if len(text) <= 80 else text[:79] + "…"
     return "".join(c if c.isascii() and c.isalnum() else f"\\{ord(c):x} " for c in short)
-
-
-def _with_contents(page: str) -> str:
-    """Return the page with its parts listed where the list of contents belongs."""
-    entries = "".join(
-        f'<li><a href="#{anchor}">{html.escape(number)} {heading}</a></li>'
-        for anchor, number, heading in re.findall(
-            r'<h2 [^>]*id="([^"]+)">\s*<span\s+class="header-section-number">([^<]*)</span>'
-            r"\s*(.*?)</h2>",
-            page,
-            re.DOTALL,
-        )
-    )
-    listed = f"<h2>Contents</h2><ol>{entries}</ol></nav>"
-    return re.sub(r'(<nav class="contents"[^>]*>)</nav>', lambda nav: nav[1] + listed, page)
 
 
 class SheetPDFExporter(_SheetExporter):
@@ -219,9 +212,7 @@ class SheetPDFExporter(_SheetExporter):
     file_extension = ".typ"  # of the template; what comes out is a PDF
     output_mimetype = "application/pdf"
     template_name = "pierimpact-pdf"
-    piece_mime = TYPST_MIME
     pandoc_options = ("--to=typst",)
-    math = re.compile(r'#tex(block)?\(("(?:[^"\\]|\\.)*")\)')
 
     def _create_environment(self) -> Environment:
         # Typst uses braces and hashes itself.
@@ -229,7 +220,8 @@ class SheetPDFExporter(_SheetExporter):
         environment.block_start_string, environment.block_end_string = "((*", "*))"
         environment.variable_start_string, environment.variable_end_string = "((=", "=))"
         environment.comment_start_string, environment.comment_end_string = "((--", "--))"
-        environment.filters["typst_string"] = typst_string
+        environment.autoescape, environment.finalize = True, _literal
+        environment.filters["breakable"] = _breakable
         return environment
 
     def from_notebook_node(
@@ -250,25 +242,23 @@ class SheetPDFExporter(_SheetExporter):
             )
         return pdf, resources
 
-    def _formulas(self, text: str) -> list[str]:
-        return [
-            f"$${formula}$$" if block else f"${formula}$"
-            for block, formula in (
-                (match[1], _typst_text(match[2])) for match in self.math.finditer(text)
-            )
-        ]
 
-    def _formula(self, match: re.Match[str], converted: str) -> str:
-        kind = 'block: true, numbering: "(1)", ' if match[1] else ""
-        body = f"{converted}.body"
-        if match[2].startswith('"\\\\displaystyle'):  # which pandoc drops
-            body = f"math.display({body})"
-        return f"#math.equation({kind}alt: {match[2]}, {body})"
+def _literal(value: Any) -> Any:
+    """Return text as a Typst string literal: nothing in it can act as markup."""
+    if isinstance(value, Markup):
+        return value
+    escaped = value.replace("\\", "\\\\").replace('"', '\\"')
+    return Markup(
+        '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
+    )
 
 
-def _typst_text(literal: str) -> str:
-    """Return the text of a Typst string literal."""
-    return re.sub(r"\\(.)", r"\1", literal[1:-1])
+def _breakable(text: str) -> str:
+    """Return `text` with spaces of no width in words that would not fit a line of a column.
+
+    Only between ASCII characters, as others may join or stand on one another.
+    """
+    return re.sub(r"[!-~]{20,}", lambda word: "\u200b".join(word[0]), text)
 
 
 def compile_typst(source: str, date: str) -> tuple[bytes, str]:

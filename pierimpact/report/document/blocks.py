@@ -1,48 +1,48 @@
-"""The building blocks of a calculation sheet, each written as HTML and as Typst.
+"""The blocks of a calculation sheet, as data that the templates lay out.
 
 Those that are numbered, tables, equations and figures, are in `numbered`.
 """
 
-import html
-from abc import ABC, abstractmethod
+import base64
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
-from pierimpact.report.document.markup import (
-    Inline,
-    Piece,
-    Ref,
-    Tex,
-    breakable,
-    to_html,
-    to_typst,
-    typst_string,
-)
+from jinja2 import Environment, FileSystemLoader
+
+from pierimpact.report.document.markup import Inline, Part, Ref, Tex
+from pierimpact.resources import shipped
 from pierimpact.units import Printed
 
-#: MIME type of what running headers, document properties and paper size need to know.
-SHEET_MIME = "application/vnd.pierimpact.report.sheet+json"
-TYPST_MIME = "text/x-typst"
+#: MIME type of a block's data, which the exporters lay out.
+BLOCK_MIME = "application/vnd.pierimpact.report.block+json"
 
 
-class Block(ABC):
-    """A piece of the sheet: what a notebook cell returns."""
-
-    @abstractmethod
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-
-    @abstractmethod
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
+@dataclass(frozen=True)
+class Block(Part):
+    """A part of the sheet that a notebook cell returns."""
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, Any]:
-        return {
-            "text/html": self.to_html(),
-            TYPST_MIME: self.to_typst(),
-            "text/plain": type(self).__name__,
-        }
+        return {BLOCK_MIME: self.data(), "text/plain": type(self).__name__}
+
+    def _repr_html_(self) -> str:
+        """Return the block as a notebook shows it: without numbers, its mathematics as LaTeX."""
+        return str(getattr(_html_layout(), type(self).__name__)(self.data()))
+
+
+@cache
+def _html_layout() -> Any:
+    folder = shipped("templates") / "pierimpact-html"
+    environment = for_html(Environment(loader=FileSystemLoader(folder)))
+    return environment.get_template("blocks.html.j2").module
+
+
+def for_html(environment: Environment) -> Environment:
+    """Return the environment, made to lay out HTML: all text is escaped."""
+    environment.autoescape = True
+    environment.filters["base64"] = lambda text: base64.b64encode(text.encode()).decode()
+    return environment
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,36 +70,6 @@ class TitleBlock(Block):
     paper: str
     landscape: bool = False
 
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        entries = "".join(
-            f"<div><dt>{html.escape(label)}</dt><dd>{html.escape(text)}</dd></div>"
-            for label, text in self.entries.items()
-        )
-        return (
-            f'<header class="title-block"><h1>{html.escape(self.title)}</h1>'
-            f"<p>{html.escape(self.subtitle)}</p><dl>{entries}</dl></header>"
-        )
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        entries = "".join(
-            f"({typst_string(label)}, {typst_string(breakable(text))}),"
-            for label, text in self.entries.items()
-        )
-        title, subtitle = typst_string(self.title), typst_string(self.subtitle)
-        return f"#title-block({title}, {subtitle}, ({entries}))"
-
-    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, Any]:
-        sheet = {
-            "title": self.title,
-            "date": self.date,
-            "paper": self.paper,
-            "landscape": self.landscape,
-            "entries": self.entries,
-        }
-        return super()._repr_mimebundle_() | {SHEET_MIME: sheet}
-
 
 @dataclass(frozen=True, kw_only=True)
 class Headline(Block):
@@ -113,24 +83,6 @@ class Headline(Block):
 
     results: Sequence[tuple[str, Printed, str]]
 
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        results = "".join(
-            f'<div><dt>{html.escape(label)}</dt><dd><span class="value">'
-            f"{html.escape(value.number)}<small> {html.escape(value.unit)}</small></span>"
-            f'<span class="remark">{html.escape(remark)}</span></dd></div>'
-            for label, value, remark in self.results
-        )
-        return f'<dl class="headline">{results}</dl>'
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        results = "".join(
-            "(" + ", ".join(map(typst_string, (label, *value, remark))) + "),"
-            for label, value, remark in self.results
-        )
-        return f"#headline(({results}))"
-
 
 @dataclass(frozen=True)
 class Paragraph(Block):
@@ -138,26 +90,10 @@ class Paragraph(Block):
 
     body: Inline
 
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        return f"<p>{to_html(self.body)}</p>"
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        return to_typst(self.body)
-
 
 @dataclass(frozen=True)
 class Contents(Block):
     """The list of the sheet's parts; the exporters fill it in."""
-
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        return '<nav class="contents" aria-label="Contents"></nav>'
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        return "#contents"
 
 
 @dataclass(frozen=True)
@@ -172,15 +108,6 @@ class Notes(Block):
 
     notes: Sequence[Inline]
 
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        notes = "".join(f"<li>{to_html(note)}</li>" for note in self.notes)
-        return f'<ul class="notes">{notes}</ul>'
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        return "#notes((" + "".join(f"[{to_typst(note)}]," for note in self.notes) + "))"
-
 
 @dataclass(frozen=True)
 class Nomenclature(Block):
@@ -193,29 +120,6 @@ class Nomenclature(Block):
     """
 
     entries: Sequence[tuple[Tex, Inline, Ref]]
-
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        entries = "".join(
-            f"<div><dt>{to_html(symbol)}</dt><dd>{to_html((*meaning, ', ', place))}</dd></div>"
-            for symbol, meaning, place in self._flat()
-        )
-        return f'<dl class="nomenclature">{entries}</dl>'
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        entries = "".join(
-            f"([{to_typst(symbol)}], [{to_typst((*meaning, ', ', place))}]),"
-            for symbol, meaning, place in self._flat()
-        )
-        return f"#nomenclature(({entries}))"
-
-    def _flat(self) -> list[tuple[Tex, tuple[Piece, ...], Ref]]:
-        """Return the entries, every meaning a run of pieces."""
-        return [
-            (symbol, meaning if isinstance(meaning, tuple) else (meaning,), place)
-            for symbol, meaning, place in self.entries
-        ]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -232,17 +136,3 @@ class Notice(Block):
 
     heading: str
     body: Sequence[Inline]
-
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        body = "".join(f"<p>{to_html(paragraph)}</p>" for paragraph in self.body)
-        heading = html.escape(self.heading)
-        return (
-            f'<aside class="notice" aria-label="{heading}">'
-            f"<p><strong>{heading}</strong></p>{body}</aside>"
-        )
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        body = "".join(f"[{to_typst(paragraph)}]," for paragraph in self.body)
-        return f"#notice({typst_string(self.heading)}, ({body}))"

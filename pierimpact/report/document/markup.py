@@ -1,34 +1,50 @@
-"""Text and mathematics, written as HTML and as Typst.
+"""What a document is made of, as data, and the pieces of its text.
 
-Mathematics is LaTeX in both, between marks that the exporters replace (JupyterLab typesets those
-of the HTML by itself). Text is never markup: it is escaped in HTML, and is a string literal in
-Typst.
+The templates lay it out; mathematics is LaTeX, which the exporters convert.
 """
 
-import html
 import re
-from dataclasses import dataclass
-from urllib.parse import quote
+from dataclasses import dataclass, fields
+from typing import Any
 
 from pierimpact.units import Printed
 
 
 @dataclass(frozen=True)
-class Tex:
+class Part:
+    """A part of a document."""
+
+    def data(self) -> dict[str, Any]:
+        """Return what the templates lay out, as JSON can hold it: the part's kind and fields."""
+        return {"type": type(self).__name__} | {
+            field.name: _plain(getattr(self, field.name)) for field in fields(self)
+        }
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Part):
+        return value.data()
+    if isinstance(value, dict):  # in pairs, as notebooks are stored with their keys sorted
+        return [list(pair) for pair in value.items()]
+    return [_plain(each) for each in value] if isinstance(value, (list, tuple)) else value
+
+
+@dataclass(frozen=True)
+class Tex(Part):
     """Inline mathematics in LaTeX."""
 
     source: str
 
 
 @dataclass(frozen=True)
-class Code:
+class Code(Part):
     """Text to be typed or compared letter by letter."""
 
     text: str
 
 
 @dataclass(frozen=True)
-class Link:
+class Link(Part):
     """Text that leads to a file beside the page; on paper, the text alone."""
 
     text: str
@@ -36,7 +52,7 @@ class Link:
 
 
 @dataclass(frozen=True)
-class Ref:
+class Ref(Part):
     """The name and number of an equation, table or figure, and the way to it."""
 
     kind: str
@@ -47,55 +63,11 @@ Piece = str | Tex | Code | Link | Ref
 Inline = Piece | tuple[Piece, ...]  #: one piece of text, or a run of them
 
 
-def to_html(inline: Inline) -> str:
-    """Return text and mathematics as HTML."""
-    if isinstance(inline, tuple):
-        return "".join(map(to_html, inline))
-    if isinstance(inline, Tex):
-        return rf'<span class="math">\({html.escape(inline.source)}\)</span>'
-    if isinstance(inline, Code):
-        return f"<code>{html.escape(inline.text)}</code>"
-    if isinstance(inline, Ref):
-        return f'<a href="#{inline.label}">{inline.kind}</a>'
-    if isinstance(inline, Link):
-        # The dot keeps what stands before a colon in a file's name from being a protocol.
-        return f'<a href="./{quote(inline.file_name)}">{html.escape(inline.text)}</a>'
-    return html.escape(inline)
-
-
-def to_typst(inline: Inline) -> str:
-    """Return text and mathematics as Typst markup."""
-    if isinstance(inline, tuple):
-        return "".join(map(to_typst, inline))
-    if isinstance(inline, Tex):
-        return f"#tex({typst_string(inline.source)});"
-    if isinstance(inline, Code):
-        return f"#raw({typst_string(inline.text)});"
-    if isinstance(inline, Ref):
-        return f"#link(<{inline.label}>)[{inline.kind}];"
-    text = inline.text if isinstance(inline, Link) else inline
-    return f"#{typst_string(breakable(text))};"
-
-
-def breakable(text: str) -> str:
-    """Return `text` with spaces of no width in words that would not fit a line of a column.
-
-    Only between ASCII characters, as others may join or stand on one another.
-    """
-    return re.sub(r"[!-~]{20,}", lambda word: "\u200b".join(word[0]), text)
-
-
-def typst_string(text: str) -> str:
-    """Return `text` as a Typst string literal: nothing in it can act as markup."""
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
-
-
 def inline(text: str) -> Inline:
     """Return text with mathematics between dollar signs."""
     pieces = text.split("$")
     run = [Tex(piece) if index % 2 else piece for index, piece in enumerate(pieces) if piece]
-    return tuple(run) if len(run) > 1 else text
+    return tuple(run) if len(run) != 1 else run[0]
 
 
 def in_a_sentence(words: Inline) -> Inline:

@@ -3,20 +3,19 @@
 The exporters number them, in the order they come.
 """
 
-import base64
-import html
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from pierimpact.report.document.blocks import Block
-from pierimpact.report.document.markup import Inline, tex_length, to_html, to_typst, typst_string
+from pierimpact.report.document.markup import Inline, Part, tex_length
 
 #: What a line of a formula begins with that goes on with the line before it.
 CONTINUED = r"\qquad"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Column:
+class Column(Part):
     """A column of a table.
 
     Parameters
@@ -61,63 +60,19 @@ class Table(Block):
     strong: Sequence[int] = ()
     centred: bool = False
 
-    def _aligned(self) -> list[list[Inline]]:
-        """Return the rows, with the numbers of decimal columns padded to equal decimals."""
-        columns = [
-            align_decimals([row[index] for row in self.rows])
-            if column.align == "decimal"
-            else [row[index] for row in self.rows]
-            for index, column in enumerate(self.columns)
-        ]
-        return [list(row) for row in zip(*columns, strict=True)]
-
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        classes = [f' class="{column.align}"' for column in self.columns]
-        head = "".join(
-            f'<th scope="col"{kind}>{to_html(column.heading)}</th>'
-            for kind, column in zip(classes, self.columns, strict=True)
-        )
-        body = ""
-        for index, row in enumerate(self._aligned()):
-            first, *others = map(to_html, row)
-            cells = "".join(
-                f"<td{kind}>{cell}</td>" for kind, cell in zip(classes[1:], others, strict=True)
-            )
-            strong = ' class="strong"' if index in self.strong else ""
-            body += f'<tr{strong}><th scope="row"{classes[0]}>{first}</th>{cells}</tr>'
-        kinds = [] if any(column.wide for column in self.columns) else ["narrow"]
-        kinds += ["centred"] * self.centred
-        kind = f' class="{" ".join(kinds)}"' if kinds else ""
-        return (
-            f'<div class="table"><table{kind} id="{self.label}"><caption>{_numbered("Table")}'
-            f"{to_html(self.caption)}</caption><thead><tr>{head}</tr></thead>"
-            f"<tbody>{body}</tbody></table></div>"
-        )
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        widths = ", ".join("1fr" if column.wide else "auto" for column in self.columns)
-        aligns = ", ".join(
-            ("right" if column.align == "decimal" else "left") + " + horizon" * self.centred
-            for column in self.columns
-        )
-        inset = "inset: (x: 5pt, y: 5pt), " * self.centred
-        head = "".join(f"[{to_typst(column.heading)}]," for column in self.columns)
-        cells = "".join(
-            f"strong[{to_typst(cell)}]," if index in self.strong else f"[{to_typst(cell)}],"
-            for index, row in enumerate(self._aligned())
-            for cell in row
-        )
-        return (
-            f"#figure(kind: table, caption: [{to_typst(self.caption)}], "
-            f"table({inset}columns: ({widths},), align: ({aligns},), table.header({head}), {cells}"
-            f")) <{self.label}>"
-        )
+    def data(self) -> dict[str, Any]:
+        """Return the data, with the numbers of decimal columns padded to equal decimals."""
+        data = super().data()
+        for index, column in enumerate(self.columns):
+            if column.align == "decimal":
+                cells = align_decimals([row[index] for row in data["rows"]])
+                for row, cell in zip(data["rows"], cells, strict=True):
+                    row[index] = cell
+        return data
 
 
 @dataclass(frozen=True, kw_only=True)
-class Equation:
+class Equation(Part):
     """A numbered step: symbol = formula = substitution = result.
 
     Parameters
@@ -153,6 +108,10 @@ class Equation:
         )
         return rf"\begin{{aligned}} {self.symbol} {lines} \end{{aligned}}"
 
+    def data(self) -> dict[str, Any]:
+        """Return the data, with the step in LaTeX and whether it is long."""
+        return super().data() | {"tex": self.tex, "long": self.long}
+
 
 @dataclass(frozen=True)
 class Steps(Block):
@@ -165,27 +124,6 @@ class Steps(Block):
     """
 
     equations: Sequence[Equation]
-
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        rows = ""
-        for step in self.equations:
-            source = f"<small>{to_html(step.source)}</small>" if step.source else ""
-            long = " long" if step.long else ""
-            rows += (
-                f'<div class="step{long}" id="{step.label}"><div>{to_html(step.name)}{source}</div>'
-                f'<div class="math display">\\[{html.escape(step.tex)}\\]</div>'
-                f'<span class="number" data-count="Equation"></span></div>'
-            )
-        return f'<div class="steps">{rows}</div>'
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        return "\n".join(
-            f"#step([{to_typst(step.name)}], [{to_typst(step.source)}], "
-            f"[#texblock({typst_string(step.tex)}) <{step.label}>])"
-            for step in self.equations
-        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,23 +147,6 @@ class Figure(Block):
     alt: str
     svg: str
 
-    def to_html(self) -> str:
-        """Return the block as HTML."""
-        data = base64.b64encode(self.svg.encode()).decode()
-        return (
-            f'<figure id="{self.label}"><img alt="{html.escape(self.alt)}" '
-            f'src="data:image/svg+xml;base64,{data}"><figcaption>{_numbered("Figure")}'
-            f"{to_html(self.caption)}</figcaption></figure>"
-        )
-
-    def to_typst(self) -> str:
-        """Return the block as Typst markup."""
-        image = f'image(bytes({typst_string(self.svg)}), format: "svg", width: 100%, '
-        return (
-            f"#figure(kind: image, caption: [{to_typst(self.caption)}], "
-            f"{image}alt: {typst_string(self.alt)})) <{self.label}>"
-        )
-
 
 def align_decimals(cells: Sequence[Inline]) -> list[Inline]:
     """Pad numbers on the right so that, set flush right, their decimal points stand in line.
@@ -242,7 +163,3 @@ def align_decimals(cells: Sequence[Inline]) -> list[Inline]:
         else:
             padded.append(cell)
     return padded
-
-
-def _numbered(kind: str) -> str:
-    return f'<span class="number" data-count="{kind}">{kind}.</span> '
