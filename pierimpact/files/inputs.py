@@ -6,17 +6,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, ValidationInfo
 
-from pierimpact.checks import InputError, not_negative, one_line
-from pierimpact.units import brief, nearest, parse
+from pierimpact.checks import InputError, brief, known, not_negative, one_line
+from pierimpact.units import parse
 
 
 def _named(convert: Callable[[str, Any], Any]) -> BeforeValidator:
     """Return a validator that knows the key of its value, so that errors can name it."""
-    return BeforeValidator(lambda value, info: convert(_key(info), value))
 
+    def validate(value: Any, info: ValidationInfo) -> Any:
+        return convert(str(info.field_name), value)
 
-def _key(info: ValidationInfo) -> str:
-    return str(info.field_name)
+    return BeforeValidator(validate)
 
 
 def _positive(dimension: str) -> BeforeValidator:
@@ -67,7 +67,7 @@ def _texts_by_key(name: str, value: Any) -> dict[str, str]:
     if not isinstance(value, dict):
         raise InputError(f"{name} must give a text for each key it lists, got {brief(value)}")
     for key in value:
-        _only_known(name, key, PHYSICAL_KEYS)
+        known(key, PHYSICAL_KEYS, f"a key that {name} can list")
     return {key: _text(f"{name}.{key}", text) for key, text in value.items()}
 
 
@@ -143,7 +143,7 @@ def read_inputs(values: Mapping[str, object]) -> Inputs:
         When a key is unknown or missing, or a value breaks a rule.
     """
     for key in values:
-        _only_known("", key, KEYS)
+        known(key, KEYS, "a key of a case file")
     given = {key: value for key, value in values.items() if value is not None}
     try:
         inputs = Inputs(**given)  # type: ignore[arg-type]
@@ -153,15 +153,6 @@ def read_inputs(values: Mapping[str, object]) -> Inputs:
         if key not in given:
             raise InputError(f"{key} is listed under assumed or sources, but is not given")
     return inputs
-
-
-def _only_known(where: str, key: object, known: tuple[str, ...]) -> None:
-    """Refuse a key that is not known; `where` names the key whose own keys these are, if any."""
-    if key not in known:
-        near = nearest(str(key), known)
-        hint = f"; did you mean {near}?" if near else ""
-        kind = f"a key that {where} can list" if where else "a key of a case file"
-        raise InputError(f"{brief(key)} is not {kind}{hint}")
 
 
 def _one_line(error: ValidationError) -> str:

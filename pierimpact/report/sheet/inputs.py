@@ -54,16 +54,6 @@ _TRUCK_PARAMETERS = {
     ),
 }
 
-# How the statuses of a truck file read in print.
-STATUS_WORDS = {
-    "read": "read in the source",
-    "secondary": "unverified: second-hand",
-    "recalled": "unverified: from memory",
-    "calibrated": "calibrated",
-    "assumed": "assumed",
-    "illustrative": "illustrative",
-}
-
 
 def inputs_table(calculation: Calculation) -> Block:
     """Return what the case gives, with source and status."""
@@ -123,7 +113,7 @@ def truck_table(calculation: Calculation) -> Block:
     rows: list[list[Inline]] = []
     for key, (name, symbol, quantity) in _TRUCK_PARAMETERS.items():
         parameter = case.truck_file[key]
-        status, source = STATUS_WORDS[parameter.status], parameter.source
+        status, source = parameter.status.words, parameter.source
         value = parameter.value
         if key == "body_mass" and case.inputs.truck_mass is not None:
             value = case.truck.body_mass

@@ -13,7 +13,7 @@ from pierimpact.report.document.markup import Code, Inline, Ref, Tex, in_a_sente
 from pierimpact.report.document.numbered import Column, Table
 from pierimpact.report.sheet import equivalent_pier, shape_steps
 from pierimpact.report.sheet.design_procedure import symbols_of_procedure
-from pierimpact.report.sheet.inputs import STATUS_WORDS, symbols_of_inputs
+from pierimpact.report.sheet.inputs import symbols_of_inputs
 from pierimpact.report.sheet.model_steps import symbols_of_model
 from pierimpact.units import rounded
 
@@ -102,7 +102,7 @@ def provenance_table(
     else:
         rows.append(["Case file", "not recorded: the parameters were set in the notebook"])
     rows += [
-        ["Truck file", (Code(truck_file.file_name), f", {STATUS_WORDS[truck_file.status]}")],
+        ["Truck file", (Code(truck_file.file_name), f", {truck_file.status.words}")],
         ["its SHA-256", Code(truck_file.sha256)],
         ["Energy balance", _error_words(history.energy_error, "the truck’s initial energy")],
         ["Momentum balance", _error_words(history.momentum_error, "the truck’s initial momentum")],
