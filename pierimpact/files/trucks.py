@@ -18,6 +18,7 @@ from pierimpact.checks import (
     one_of,
 )
 from pierimpact.resources import shipped
+from pierimpact.symbols import BY_KEY, dimension
 from pierimpact.units import parse
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
@@ -26,24 +27,10 @@ _CATALOGUE = shipped("trucks")
 # Words for the status of a parameter; a parameter cited in the source paper was read there.
 _STATUSES = tuple(certainty for certainty in Certainty if certainty is not Certainty.CITED)
 _SPRINGS = ("engine_spring", "body_spring")
-_SPRING_DIMENSIONS = {
-    "plateau_force": "force",
-    "plateau_length": "length",
-    "stiffness": "stiffness",
-    "unloading_stiffness": "stiffness",
-}
-# Dimension of each parameter; None where it is a word.
-_DIMENSIONS = {
-    "engine_mass": "mass",
-    "body_mass": "mass",
-    "friction_force": "force",
-    "friction_on": None,
-    **{
-        f"{spring}.{name}": dimension
-        for spring in _SPRINGS
-        for name, dimension in _SPRING_DIMENSIONS.items()
-    },
-}
+_PARAMETERS = (
+    *("engine_mass", "body_mass", "friction_force", "friction_on"),
+    *(f"{spring}.{name}" for spring in _SPRINGS for name in CrushSpring.__dataclass_fields__),
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -175,9 +162,9 @@ def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile
     certainty = _certainty("status", status)
     entries = _with_dotted_names(table)
     for key in entries:
-        known(key, _DIMENSIONS, "a truck parameter")
-    parameters = {key: _parameter(key, entries.get(key)) for key in _DIMENSIONS}
-    values: dict[str, Any] = {key: parameter.value for key, parameter in parameters.items()}
+        known(key, _PARAMETERS, "a truck parameter")
+    parameters = tuple(_parameter(key, entries.get(key)) for key in _PARAMETERS)
+    values: dict[str, Any] = {parameter.name: parameter.value for parameter in parameters}
     own = {key: value for key, value in values.items() if "." not in key}
     own |= {spring: _spring(spring, values) for spring in _SPRINGS}
     return TruckFile(
@@ -185,7 +172,7 @@ def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile
         description=description,
         source=source,
         status=certainty,
-        parameters=tuple(parameters.values()),
+        parameters=parameters,
         file_name=file_name,
         sha256=sha256,
     )
@@ -207,21 +194,21 @@ def _parameter(name: str, entry: object) -> Parameter:
         raise InputError(
             f"{name} must be a table with value, unit, source and status, got {brief(entry)}"
         )
-    dimension = _DIMENSIONS[name]
-    keys = ("value", "unit", "source", "status") if dimension else ("value", "source", "status")
+    kind = dimension(BY_KEY[name])  # none for a word
+    keys = ("value", "unit", "source", "status") if kind else ("value", "source", "status")
     for key in entry:
         known(f"{name}.{key}", [f"{name}.{key}" for key in keys], "a key")
     for key in keys:
         if key not in entry:
             raise InputError(f"{name}.{key} is missing")
     value, texts = entry["value"], {key: _text(f"{name}.{key}", entry[key]) for key in keys[1:]}
-    if dimension is None:
+    if not kind:
         value = given = str(value)
     elif isinstance(value, bool | str):
         raise InputError(f"{name}.value must be a number, got {brief(value)}")
     else:
         given = f"{number(f'{name}.value', value):.15g} {texts['unit']}"
-        value = parse(name, given, dimension)
+        value = parse(name, given, kind)
     return Parameter(
         name=name,
         value=value,
@@ -233,7 +220,9 @@ def _parameter(name: str, entry: object) -> Parameter:
 
 def _spring(spring: str, values: Mapping[str, Any]) -> CrushSpring:
     try:
-        return CrushSpring(**{name: values[f"{spring}.{name}"] for name in _SPRING_DIMENSIONS})
+        return CrushSpring(
+            **{name: values[f"{spring}.{name}"] for name in CrushSpring.__dataclass_fields__}
+        )
     except InputError as error:
         raise InputError(f"{spring}.{error}") from None
 

@@ -28,7 +28,7 @@ class Results(BaseModel):
     prepared_by: str
     checked_by: str
     revision: str
-    date: datetime.date  #: today's where the case gives none
+    date: datetime.date
     units: str  #: of the report, "SI" or "US"
 
     column_shape: str
@@ -66,7 +66,7 @@ class Results(BaseModel):
             prepared_by=inputs.prepared_by,
             checked_by=inputs.checked_by,
             revision=inputs.revision,
-            date=inputs.date or datetime.date.today(),
+            date=inputs.date,
             units=inputs.units,
             column_shape=inputs.column_shape,
             column_sizes=tuple(size for size in sizes if size is not None),

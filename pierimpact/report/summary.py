@@ -12,6 +12,7 @@ from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table
 from pierimpact.report.results import Results
 from pierimpact.report.sheet.cautions import limits_of_the_study
+from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 
 NONE = "none"  # instead of a peak that is not there
@@ -34,10 +35,9 @@ class _Quantity(NamedTuple):
     given: bool = False
 
 
-_GIVEN = (
-    _Quantity("truck_mass", Tex("m_1 + m_2"), "mass", given=True),
-    _Quantity("speed", Tex("V"), "speed", given=True),
-    _Quantity("impact_height", Tex(r"z_\mathrm{n}"), "length", given=True),
+_GIVEN = tuple(
+    _Quantity(key, Tex(BY_KEY[key].latex), BY_KEY[key].quantity, given=True)
+    for key in ("truck_mass", "speed", "impact_height")
 )
 _RESULTS = (
     _Quantity("pier_frequency", Tex(r"f_\mathrm{p}"), "frequency"),
