@@ -38,13 +38,14 @@ from pathlib import Path
 times = [time.perf_counter()]
 def lap():
     times.append(time.perf_counter())
+from pierimpact.files.case import read_case_file
 from pierimpact.report import exporters, write
 from pierimpact.report.calculation import calculate
 lap()
-case = write.read_case(sys.argv[1]); calculate(case); lap()
-write.import_libraries(); lap()
 path = Path(sys.argv[1])
-notebook = write._execute(write._parameters(path), path.parent, Path("x.ipynb"), lambda: None)
+case_file = read_case_file(path); calculate(case_file.case); lap()
+write.import_libraries(); lap()
+notebook = write._execute(case_file.parameters, path.parent, Path("x.ipynb"), lambda: None)
 lap()
 exporters.SheetHTMLExporter().from_notebook_node(notebook); lap()
 exporters.SheetPDFExporter().from_notebook_node(notebook); lap()

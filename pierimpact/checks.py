@@ -2,6 +2,8 @@
 
 import math
 import unicodedata
+from collections.abc import Collection, Iterable
+from difflib import get_close_matches
 from typing import SupportsFloat
 
 import numpy as np
@@ -49,6 +51,25 @@ def one_of(name: str, value: str, choices: tuple[str, ...]) -> str:
     if value not in choices:
         raise InputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
     return value
+
+
+def known(name: object, names: Collection[str], kind: str) -> None:
+    """Refuse a name that is not among `names`; `kind` says what they are, as "a key of a file"."""
+    if name not in names:
+        raise InputError(f"{brief(name)} is not {kind}{did_you_mean(str(name), names)}")
+
+
+def did_you_mean(word: str, words: Iterable[str]) -> str:
+    """Return a question that ends an error: whether the nearest of `words` was meant, if any is."""
+    by_lower_case = {name.lower(): name for name in words}
+    near = get_close_matches(word.lower(), by_lower_case, n=1)
+    return f"; did you mean {by_lower_case[near[0]]}?" if near else ""
+
+
+def brief(value: object, width: int = 60) -> str:
+    """Return `value` as it would be typed, on one line and cut to `width` characters."""
+    text = repr(value)
+    return text if len(text) <= width else text[: width - 1] + "…"
 
 
 def one_line(name: str, value: str) -> str:

@@ -14,13 +14,13 @@ the case file. Where there are more cases than one, summary.html, summary.pdf an
 a row for each. A case that fails stops none of the others; it is reported at the end.
 """
 _EXIT_CODES = """\
-Exit code: 0 if every case has its report; 2 if only bad input stood in the way; 1 if anything
-else failed; 130 if interrupted, which leaves whole files only.
+Exit code: 0 if every case has its report; 2 if all failures are bad input; 1 if anything else
+failed; 130 if interrupted, which leaves complete files only.
 """
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line and return its exit code: 2 for bad input, 1 for what else fails."""
+    """Run the command line and return its exit code: 2 for bad input, 1 for any other failure."""
     options = _parser().parse_args(arguments)
     try:
         if options.command == "teach":
@@ -38,9 +38,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="pierimpact", description="Truck collisions with bridge piers.", allow_abbrev=False
     )
-    parser.add_argument(
-        "--version", action="version", version=f"pierimpact {pierimpact.__version__}"
-    )
+    version = f"pierimpact {pierimpact.__version__}"
+    parser.add_argument("--version", action="version", version=version)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     report = commands.add_parser(
         "report",
@@ -61,7 +60,7 @@ def _parser() -> argparse.ArgumentParser:
     teach = commands.add_parser(
         "teach",
         help="open the teaching notebooks",
-        description="Copy the teaching notebooks to a folder of yours and open them in JupyterLab.",
+        description="Copy the teaching notebooks to your own folder and open them in JupyterLab.",
     )
     teach.add_argument(
         "--app", action="store_true", help="serve the explorer alone, as a page without code"
@@ -70,8 +69,7 @@ def _parser() -> argparse.ArgumentParser:
         "--folder",
         metavar="DIR",
         default=DEFAULT_FOLDER,
-        help="where your copies are, or come to be; what is there already is kept (default: "
-        "%(default)s)",
+        help="folder of your copies; files already in it are kept (default: %(default)s)",
     )
     teach.add_argument(
         "--no-browser", dest="browser", action="store_false", help="do not open a browser"
@@ -99,7 +97,7 @@ def _report(paths: Sequence[str], output: str) -> int:
         print(report.notebook, report.html, report.pdf, sep="\n")
     if batch.summary:
         print(*batch.summary, sep="\n")
-    sys.stdout.flush()  # so that what went wrong comes last
+    sys.stdout.flush()  # so that warnings and failures come last
     for report in batch.reports:
         for warning in report.warnings:
             _complain(f"warning: {report.pdf.name}: {warning}")

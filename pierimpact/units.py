@@ -2,13 +2,11 @@
 
 import math
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cache
 from typing import Any, NamedTuple
 
-from pierimpact.checks import InputError
+from pierimpact.checks import InputError, brief, did_you_mean
 
 SYSTEMS = ("SI", "US")
 
@@ -117,8 +115,7 @@ def parse(name: str, value: object, dimension: str) -> float:
         raise InputError(f"{name} must have a unit ({units}), got {shown}")
     unit = _unit(expression)
     if unit is None:
-        near = nearest(expression, units.split(", "))
-        hint = f"; did you mean {near}?" if near else ""
+        hint = did_you_mean(expression, units.split(", "))
         raise InputError(f"{name} must be {words} ({units}), got unknown unit in {shown}{hint}")
     size, dimensions = unit
     if dimensions != _dimensions(dimension):
@@ -137,19 +134,6 @@ def parse(name: str, value: object, dimension: str) -> float:
 def _dimensions(dimension: str) -> dict[str, float] | None:
     unit = _unit(DIMENSIONS[dimension].si)
     return unit[1] if unit else None
-
-
-def nearest(word: str, words: Iterable[str]) -> str | None:
-    """Return the one of `words` that `word` is most likely a misspelling of, if any."""
-    by_lower_case = {known.lower(): known for known in words}
-    near = get_close_matches(word.lower(), by_lower_case, n=1)
-    return by_lower_case[near[0]] if near else None
-
-
-def brief(value: object, width: int = 60) -> str:
-    """Return `value` as it would be typed, on one line and cut to `width` characters."""
-    text = repr(value)
-    return text if len(text) <= width else text[: width - 1] + "…"
 
 
 @dataclass(frozen=True)

@@ -19,10 +19,11 @@ from hypothesis import strategies as st
 
 from pierimpact import cli
 from pierimpact.checks import InputError
-from pierimpact.files.case import read_case
+from pierimpact.files.case import read_case_file
 from pierimpact.report import batch as batch_module
 from pierimpact.report.batch import OutputError, find_cases, write_reports
 from pierimpact.report.calculation import calculate
+from pierimpact.report.results import Results
 from pierimpact.report.summary import Row, no_formula, summary_blocks, summary_csv
 from pierimpact.report.write import Report, ReportError, stages
 from pierimpact.units import QUANTITIES, parse, printed
@@ -38,6 +39,14 @@ def write_case(path, **changes):
         text = re.sub(rf"^{key}: .*\n", "", text, flags=re.MULTILINE) + f"{key}: {value}\n"
     path.write_text(text, encoding="utf-8")
     return path
+
+
+def calculated(path):
+    return calculate(read_case_file(path).case)
+
+
+def results_of(path):
+    return Results.of(calculated(path))
 
 
 class Bar:
@@ -174,11 +183,11 @@ def test_the_progress_bar_counts_every_stage_of_every_case(made):
 
 
 def test_the_summary_has_the_values_of_the_reports(made):
-    _, result, output, _ = made
+    cases, result, output, _ = made
     rows = rows_of((output / "summary.html").read_text("utf-8"))
     sheet = "".join(page.extract_text() for page in pypdf.PdfReader(output / "summary.pdf").pages)
-    for report in result.reports:
-        outcome = calculate(report.case)
+    for report, case in zip(result.reports, (cases[0], cases[-1]), strict=True):
+        outcome = calculated(case)
         history = outcome.history
         cargo = history.cargo_peak
         of_the_report = html.unescape(report.html.read_text("utf-8"))
@@ -213,7 +222,7 @@ def test_the_summary_leads_to_the_reports(made):
 
 
 def test_the_csv_reads_back_with_every_digit(made):
-    _, result, output, _ = made
+    cases, result, output, _ = made
     text = (output / "summary.csv").read_bytes().decode("utf-8")
     rows = list(csv.DictReader(io.StringIO(text, newline="")))
     names = ["P 1 & <b>", "P3", "P4", "P5", "A"]
@@ -224,12 +233,12 @@ def test_the_csv_reads_back_with_every_digit(made):
         "calculated",
     ]
     by_name = {row["case"]: row for row in rows}
-    for report in result.reports:
-        row, outcome = by_name[report.html.stem], calculate(report.case)
+    for report, case in zip(result.reports, (cases[0], cases[-1]), strict=True):
+        row, outcome = by_name[report.html.stem], calculated(case)
         cargo = outcome.history.cargo_peak
         values = {
-            "truck mass [kg]": report.case.truck.mass,
-            "speed [km/h]": report.case.inputs.speed * 3.6,
+            "truck mass [kg]": outcome.case.truck.mass,
+            "speed [km/h]": outcome.case.inputs.speed * 3.6,
             "impact height [m]": outcome.struck.impact_height,
             "pier frequency [Hz]": outcome.pier.frequency,
             "engine peak [kN]": outcome.history.engine_peak.reaction / 1e3,
@@ -264,7 +273,7 @@ def test_units_of_the_summary(tmp_path, systems):
     rows = []
     for index, system in enumerate(systems):
         case = write_case(tmp_path / f"{index}.yaml", units=system)
-        rows.append(Row(case.stem, calculate(read_case(case)), []))
+        rows.append(Row(case.stem, results_of(case), []))
     page = "".join(block._repr_html_() for block in summary_blocks(rows))
     system = "US" if systems == ["US", "US"] else "SI"
     assert ("this table is in SI" in page) == (systems != ["US", "US"])
@@ -282,7 +291,7 @@ def test_units_of_the_summary(tmp_path, systems):
             unit = QUANTITIES[kind].us if system == "US" else QUANTITIES[kind].si
             assert match[2] == unit[1]
             assert f"[{match[2]}]" in page
-            outcome = rows[int(row["case"])].calculation
+            outcome = calculated(tmp_path / f"{row['case']}.yaml")
             value = {
                 "truck mass": outcome.case.truck.mass,
                 "speed": outcome.case.inputs.speed,
@@ -299,7 +308,7 @@ def test_units_of_the_summary(tmp_path, systems):
 def test_the_summary_says_what_is_outside_the_study(tmp_path, units, words):
     case = write_case(tmp_path / "fast.yaml", speed="117 km/h", units=units)
     inside = write_case(tmp_path / "inside.yaml", units=units)
-    rows = [Row(path.stem, calculate(read_case(path)), []) for path in (case, inside)]
+    rows = [Row(path.stem, results_of(path), []) for path in (case, inside)]
     page = "".join(block._repr_html_() for block in summary_blocks(rows))
     remarks = [row["remarks"] for row in csv.DictReader(io.StringIO(summary_csv(rows), newline=""))]
     assert (
@@ -314,7 +323,7 @@ def test_a_project_of_their_own_is_a_column(tmp_path):
     rows = []
     for name, project in (("a", "One"), ("b", "Two"), ("c", "Two")):
         case = write_case(tmp_path / f"{name}.yaml", project=project)
-        rows.append(Row(name, calculate(read_case(case)), []))
+        rows.append(Row(name, results_of(case), []))
 
     def heads(rows):
         page = "".join(block._repr_html_() for block in summary_blocks(rows))
@@ -342,7 +351,7 @@ def test_exit_codes(tmp_path, monkeypatch, capsys, outcomes, code):
         if error := outcomes[names.index(case.stem)]:
             raise error
         files = (output / f"{case.stem}.{ending}" for ending in ("ipynb", "html", "pdf"))
-        return Report(*files, [], read_case(case))
+        return Report(*files, [], results_of(case))
 
     monkeypatch.setattr(batch_module, "write_report", write)
     output = tmp_path / "out"
@@ -363,7 +372,7 @@ def test_exit_codes(tmp_path, monkeypatch, capsys, outcomes, code):
 
 def test_one_case_has_no_summary(tmp_path, monkeypatch):
     case = write_case(tmp_path / "a.yaml")
-    report = Report(Path("a.ipynb"), Path("a.html"), Path("a.pdf"), [], read_case(case))
+    report = Report(Path("a.ipynb"), Path("a.html"), Path("a.pdf"), [], results_of(case))
     monkeypatch.setattr(batch_module, "write_report", lambda case, output, on_stage: report)
     result = write_reports([case], tmp_path / "out", progress=False)
     assert result == ([report], [], None, "")
@@ -373,13 +382,13 @@ def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
     cases = [write_case(tmp_path / f"{name}.yaml") for name in "ab"]
 
     def write(case, output, on_stage):
-        return Report(Path("x.ipynb"), Path("x.html"), Path("x.pdf"), [], read_case(case))
+        return Report(Path("x.ipynb"), Path("x.html"), Path("x.pdf"), [], results_of(case))
 
     def fail(rows):
         raise ValueError("no CSV")
 
     monkeypatch.setattr(batch_module, "write_report", write)
-    monkeypatch.setattr("pierimpact.report.summary.summary_csv", fail)
+    monkeypatch.setattr(batch_module, "summary_csv", fail)
     output = tmp_path / "out"
     assert cli.main(["report", *map(str, cases), "--output", str(output)]) == 1
     lines = capsys.readouterr()

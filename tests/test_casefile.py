@@ -1,4 +1,5 @@
 import datetime
+import hashlib
 import math
 import re
 import shutil
@@ -15,7 +16,7 @@ from pierimpact.files.case import (
     case_from,
     case_from_notebook,
     concrete_modulus,
-    read_case,
+    read_case_file,
 )
 from pierimpact.files.inputs import KEYS, PHYSICAL_KEYS
 
@@ -179,11 +180,32 @@ def as_yaml(values):
 def test_a_case_file(tmp_path):
     path = tmp_path / "case.yaml"
     path.write_text(as_yaml(CASE) + "date: 2026-01-31\ndamping_ratio: 0.03\n", encoding="utf-8")
-    case = read_case(path)
-    assert case.inputs.date == datetime.date(2026, 1, 31)
-    assert case.inputs.damping_ratio == 0.03
+    case_file = read_case_file(path)
+    assert case_file.case.inputs.date == datetime.date(2026, 1, 31)
+    assert case_file.case.inputs.damping_ratio == 0.03
     path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())  # as some editors begin UTF-8
-    assert read_case(path) == case
+    assert read_case_file(path).case == case_file.case
+
+
+def test_the_parameters_of_a_case_file_give_its_case(tmp_path):
+    path = tmp_path / "case.yaml"
+    path.write_text(as_yaml(CASE) + "date: 2026-01-31\nnotes: [one]\n", encoding="utf-8")
+    case_file = read_case_file(path)
+    parameters = case_file.parameters
+    assert parameters["date"] == "2026-01-31"
+    assert parameters["case_file"] == "case.yaml"
+    assert parameters["case_sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+    case = case_from_notebook(parameters)
+    assert (case.inputs, case.truck_file) == (case_file.case.inputs, case_file.case.truck_file)
+
+
+def test_a_case_file_is_read_once(tmp_path, monkeypatch):
+    path, reads = tmp_path / "case.yaml", []
+    path.write_text(as_yaml(CASE), encoding="utf-8")
+    read_bytes = Path.read_bytes
+    monkeypatch.setattr(Path, "read_bytes", lambda file: reads.append(file) or read_bytes(file))
+    _ = read_case_file(path).parameters
+    assert reads.count(path) == 1
 
 
 def test_a_truck_file_is_looked_for_beside_the_case_file(tmp_path):
@@ -192,7 +214,7 @@ def test_a_truck_file_is_looked_for_beside_the_case_file(tmp_path):
     shutil.copy(source, tmp_path / "trucks" / "mine.toml")
     path = tmp_path / "case.yaml"
     path.write_text(as_yaml(CASE | {"truck": "trucks/mine.toml"}), encoding="utf-8")
-    assert read_case(path).truck_file.sha256 == case_from(CASE).truck_file.sha256
+    assert read_case_file(path).case.truck_file.sha256 == case_from(CASE).truck_file.sha256
 
 
 @pytest.mark.parametrize(
@@ -221,16 +243,16 @@ def test_a_bad_file_is_one_line(tmp_path, content, message):
     path = tmp_path / "case.yaml"
     path.write_bytes(content)
     with pytest.raises(InputError, match=re.escape(message)) as caught:
-        read_case(path)
+        read_case_file(path)
     assert str(caught.value).startswith("case.yaml: ")
     assert "\n" not in str(caught.value)
 
 
 def test_no_file_or_a_folder(tmp_path):
     with pytest.raises(InputError, match=r"^nowhere\.yaml: cannot be read: No such file"):
-        read_case(tmp_path / "nowhere.yaml")
+        read_case_file(tmp_path / "nowhere.yaml")
     with pytest.raises(InputError, match="cannot be read: Is a directory"):
-        read_case(tmp_path)
+        read_case_file(tmp_path)
 
 
 def test_the_parameters_of_a_notebook_are_a_case():

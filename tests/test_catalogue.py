@@ -5,8 +5,9 @@ from pathlib import Path
 import pytest
 
 import pierimpact
+from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError
-from pierimpact.files.trucks import STATUSES, load_truck, read_truck_file, truck_names
+from pierimpact.files.trucks import load_truck, read_truck_file, truck_names
 from pierimpact.vehicle.crush import CrushSpring
 
 CATALOGUE = Path(pierimpact.__file__).parent / "trucks"
@@ -39,7 +40,7 @@ def test_every_parameter_has_value_unit_source_and_status(name):
     assert len(truck_file.parameters) == 12
     for parameter in truck_file.parameters:
         assert parameter.source
-        assert parameter.status in STATUSES
+        assert parameter.status in Certainty
         assert isinstance(parameter.value, str) or parameter.given.split()[1]
         assert truck_file[parameter.name] is parameter
 
@@ -66,18 +67,18 @@ def test_a_truck_of_ones_own_loads_by_path(tmp_path):
         (
             "[engine_mass]",
             "[engin_mass]",
-            "engin_mass is not a truck parameter; did you mean engine",
+            "'engin_mass' is not a truck parameter; did you mean engine",
         ),
         (
             "[engine_spring.stiffness]",
             "[engine_spring.stifness]",
-            "engine_spring.stifness is not a truck parameter; did you mean engine_spring.s",
+            "'engine_spring.stifness' is not a truck parameter; did you mean engine_spring.s",
         ),
-        ("[friction_force]", "[body_spring.friction]", "body_spring.friction is not a truck"),
+        ("[friction_force]", "[body_spring.friction]", "'body_spring.friction' is not a truck"),
         (
             'unit = "kg"',
             'units = "kg"',
-            "engine_mass.units is not a key; did you mean engine_mass.",
+            "'engine_mass.units' is not a key; did you mean engine_mass.",
         ),
         (
             'source = "what is left of 8 t"',
@@ -98,6 +99,8 @@ def test_a_truck_of_ones_own_loads_by_path(tmp_path):
             'value = 90\nunit = "MN/m"',
             "engine_spring.unloading_stiffness must be at least stiffness",
         ),
+        ('status = "illustrative"', 'status = "cited"', "status must be one of read, secondary"),
+        ("[engine_mass]", r'["a\nb"]', r"'a\nb' is not a truck parameter"),
         ("name =", "name", "is not valid TOML"),
     ],
 )

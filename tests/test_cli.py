@@ -6,7 +6,9 @@ import pytest
 
 import pierimpact
 from pierimpact import cli
-from pierimpact.files.case import read_case
+from pierimpact.files.case import read_case_file
+from pierimpact.report.calculation import calculate
+from pierimpact.report.results import Results
 from pierimpact.report.write import Report, ReportError
 
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
@@ -61,9 +63,10 @@ def test_no_such_file_in_a_process_of_its_own(tmp_path):
 
 def test_what_is_printed(monkeypatch, capsys):
     files = Path("a.ipynb"), Path("a.html"), Path("a.pdf")
+    results = Results.of(calculate(read_case_file(EXAMPLE).case))
 
     def made(case, output, on_stage):
-        return Report(*files, ["a letter is missing"], read_case(EXAMPLE))
+        return Report(*files, ["a letter is missing"], results)
 
     monkeypatch.setattr("pierimpact.report.batch.write_report", made)
     assert cli.main(["report", "a.yaml"]) == 0

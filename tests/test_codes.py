@@ -5,9 +5,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pierimpact import InputError
+from pierimpact.certainty import Certainty
 from pierimpact.design.codes import (
     ROAD_CLASSES,
-    STATUSES,
     aashto_lrfd,
     aashto_lrfd_former,
     code_forces,
@@ -49,7 +49,7 @@ def test_halves_across_the_travel():
 
 def test_what_is_not_sure_says_so():
     codes = code_forces(20.0, 8e3)
-    assert {code.along.status for code in codes} <= set(STATUSES)
+    assert {code.along.certainty for code in codes} <= set(Certainty)
     for code in codes:
         for number in (code.along, code.across, code.height):
             if number is not None:

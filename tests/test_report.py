@@ -17,11 +17,12 @@ import pytest
 import yaml
 
 from pierimpact.checks import InputError
-from pierimpact.files.case import read_case
+from pierimpact.files.case import read_case_file
 from pierimpact.report import write as report_module
 from pierimpact.report.calculation import calculate
 from pierimpact.report.document.blocks import TitleBlock
 from pierimpact.report.exporters import SheetPDFExporter, compile_typst, notebook_of
+from pierimpact.report.results import Results
 from pierimpact.report.write import ReportError, report_notebook, write_report
 from pierimpact.units import printed
 
@@ -124,7 +125,7 @@ def test_three_files_and_nothing_else(made):
 
 def test_the_peaks_of_the_calculation_are_printed(made):
     case, files = made
-    result = calculate(read_case(case))
+    result = calculate(read_case_file(case).case)
     history, system = result.history, result.case.inputs.units
     page, sheet = Text(files.html.read_text("utf-8")).text, " ".join(pdf_text(files.pdf))
     for peak in (history.engine_peak, history.cargo_peak):
@@ -156,16 +157,25 @@ def test_papermill_alone_gives_the_same_sheet(us, tmp_path):
 
     def sheet(path):
         return [
-            out.data["text/html"]
+            out.data.get("text/html", out.data)
             for cell in nbformat.read(path, 4).cells
             for out in cell.get("outputs", [])
             if "data" in out
         ]
 
-    alone, whole = sheet(output), sheet(files.notebook)
-    assert alone[:-1] == whole[:-1]
-    assert "not recorded" in alone[-1]  # only papermill knows the case file
-    assert case.name in whole[-1]
+    (*alone, alone_from, alone_results), (*whole, whole_from, whole_results) = map(
+        sheet, (output, files.notebook)
+    )
+    assert alone == whole
+    assert alone_results == whole_results
+    assert "not recorded" in alone_from  # only papermill knows the case file
+    assert case.name in whole_from
+
+
+def test_the_notebook_carries_the_results_to_the_last_digit(made):
+    case, files = made
+    assert files.results == Results.of(calculate(read_case_file(case).case))
+    assert files.results == Results.in_notebook(nbformat.read(files.notebook, 4))
 
 
 @pytest.mark.parametrize(
@@ -294,7 +304,7 @@ def test_what_no_font_has_is_told(us):
 
 def test_every_page_says_whose_it_is_and_which(made):
     case, files = made
-    inputs = read_case(case).inputs
+    inputs = read_case_file(case).case.inputs
     pages = pdf_text(files.pdf)
     assert len(pages) > 3
     for number, text in enumerate(pages, 1):

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from pierimpact import simulate, widgets
-from pierimpact.files.case import case_from, case_values
+from pierimpact.files.case import read_case_file
 from pierimpact.files.trucks import read_truck_file
 from pierimpact.teaching.explorer import PAUSE
 from pierimpact.teaching.live import LiveWords
@@ -207,7 +207,7 @@ def test_the_case_file_gives_the_same_collision(tmp_path):
                         engine_stiffness=210e6, friction_force=5e3)  # fmt: skip
     (tmp_path / "case.yaml").write_text(case_text(scenario, "truck.toml"), encoding="utf-8")
     (tmp_path / "truck.toml").write_text(truck_text(scenario), encoding="utf-8")
-    case = case_from(case_values(tmp_path / "case.yaml"), folder=tmp_path)
+    case = read_case_file(tmp_path / "case.yaml").case
     assert case.inputs.speed == pytest.approx(scenario.speed)
     assert case.column == scenario.column
     for name in ("engine_mass", "body_mass", "friction_force", "friction_on"):

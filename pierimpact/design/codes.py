@@ -8,33 +8,27 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from pierimpact.certainty import Certainty
 from pierimpact.checks import one_of, positive
 
 KIP = 4448.2216152605  # pound-force of exactly 0.45359237 kg × 9.80665 m/s², times 1000 [N]
 
-CITED = "cited in the source paper"
-READ = "read in a public copy"
-SECOND_HAND = "second-hand"
-RECALLED = "from memory"
-UNVERIFIED = "unverified: check against the standard"
-STATUSES = (CITED, READ, SECOND_HAND, RECALLED)
-
 
 class Sourced(NamedTuple):
-    """A value in SI units and how sure it is, one of STATUSES."""
+    """A value in SI units and how certain it is."""
 
     value: float
-    status: str
+    certainty: Certainty
 
     @property
     def verified(self) -> bool:
         """Whether the value is cited in the source paper or was read in the code."""
-        return self.status in (CITED, READ)
+        return self.certainty.verified
 
     @property
     def remark(self) -> str:
         """What is printed beside the value."""
-        return self.status if self.verified else UNVERIFIED
+        return self.certainty.standard_words
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,8 +77,8 @@ def aashto_lrfd() -> CodeForce:
     return CodeForce(
         code="AASHTO LRFD",
         clause="3.6.5",
-        along=Sourced(600.0 * KIP, CITED),
-        height=Sourced(1.5, CITED),
+        along=Sourced(600.0 * KIP, Certainty.CITED),
+        height=Sourced(1.5, Certainty.CITED),
         note="From two full-scale tests. Given in kip by the source paper, else converted. "
         "The clause number is from memory, and that the force acts within 15° of the travel: "
         "unverified.",
@@ -97,8 +91,8 @@ def aashto_lrfd_former() -> CodeForce:
         code="AASHTO LRFD, former value",
         edition="older",
         clause="3.6.5",
-        along=Sourced(400.0 * KIP, CITED),
-        height=Sourced(1.2, CITED),
+        along=Sourced(400.0 * KIP, Certainty.CITED),
+        height=Sourced(1.2, Certainty.CITED),
         note="In use for nearly 20 years. Given in kip, else converted. The clause number is from "
         "memory.",
     )
@@ -108,9 +102,9 @@ def jtg_d60() -> CodeForce:
     """JTG D60, General Code for Design of Highway and Culverts (China)."""
     return CodeForce(
         code="JTG D60",
-        along=Sourced(1000e3, CITED),
-        across=Sourced(500e3, CITED),
-        height=Sourced(1.2, SECOND_HAND),
+        along=Sourced(1000e3, Certainty.CITED),
+        across=Sourced(500e3, Certainty.CITED),
+        height=Sourced(1.2, Certainty.SECONDARY),
         note="The two directions are not considered at the same time.",
     )
 
@@ -143,8 +137,8 @@ def en_1991_1_7_table(road_class: str = "motorway") -> CodeForce:
     return CodeForce(
         code=f"EN 1991-1-7, {road_class}",
         clause="Table 4.1",
-        along=Sourced(along, RECALLED),
-        across=Sourced(across, RECALLED),
+        along=Sourced(along, Certainty.RECALLED),
+        across=Sourced(across, Certainty.RECALLED),
         note="That the force depends on the road is cited in the source paper; its amount is not.",
     )
 
@@ -166,13 +160,13 @@ def en_1991_1_7_hard_impact(speed: float, mass: float, stiffness: float | None =
     InputError
         When a value is not positive.
     """
-    status = SECOND_HAND if stiffness is None else READ
-    used = Sourced(positive("stiffness", 300e3 if stiffness is None else stiffness), status)
+    certainty = Certainty.SECONDARY if stiffness is None else Certainty.READ
+    used = Sourced(positive("stiffness", 300e3 if stiffness is None else stiffness), certainty)
     force = positive("speed", speed) * math.sqrt(used.value * positive("mass", mass))
     return CodeForce(
         code="EN 1991-1-7, hard impact",
         clause="Annex C",
-        along=Sourced(force, status),
+        along=Sourced(force, certainty),
         stiffness=used,
         note="Informative, F = v √(k m). The formula was read in a public copy.",
     )
@@ -183,7 +177,7 @@ def as_5100_2() -> CodeForce:
     return CodeForce(
         code="AS 5100.2",
         edition="older",
-        along=Sourced(2000e3, READ),
+        along=Sourced(2000e3, Certainty.READ),
         note="An ultimate load.",
     )
 
@@ -193,8 +187,8 @@ def csa_s6_2000() -> CodeForce:
     return CodeForce(
         code="CSA S6",
         edition="2000",
-        along=Sourced(1400e3, SECOND_HAND),
-        height=Sourced(1.2, SECOND_HAND),
+        along=Sourced(1400e3, Certainty.SECONDARY),
+        height=Sourced(1.2, Certainty.SECONDARY),
     )
 
 

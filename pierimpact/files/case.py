@@ -10,13 +10,12 @@ from typing import Any
 
 import yaml
 
-from pierimpact.checks import InputError
+from pierimpact.checks import InputError, brief
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.files.inputs import Inputs, read_inputs
 from pierimpact.files.trucks import TruckFile, read_truck_file
 from pierimpact.pier.column import PierColumn
 from pierimpact.pier.sections import CircularSection, RectangularSection, Section
-from pierimpact.units import brief
 from pierimpact.vehicle.truck import Truck
 
 #: Parameters of the report notebook that are no keys of a case file.
@@ -54,8 +53,39 @@ class Case:
         return (LOW_IMPACT_HEIGHT, HIGH_IMPACT_HEIGHT) if height == "auto" else (height,)
 
 
-def read_case(path: str | Path) -> Case:
-    """Return the case of a case file.
+@dataclass(frozen=True, kw_only=True)
+class CaseFile:
+    """A case file, read once: what it says, and the case that it gives.
+
+    Parameters
+    ----------
+    name : str
+        Name of the file, without its folder.
+    sha256 : str
+        SHA-256 of the file's bytes, in hexadecimal.
+    values : mapping of str to object
+        Its keys and values, as YAML has them.
+    case : Case
+        The case.
+    """
+
+    name: str
+    sha256: str
+    values: Mapping[str, object]
+    case: Case
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The parameters of the report's notebook, as plain values."""
+        values = {
+            key: value.isoformat() if isinstance(value, datetime.date) else value
+            for key, value in self.values.items()
+        }
+        return values | {"case_file": self.name, "case_sha256": self.sha256}
+
+
+def read_case_file(path: str | Path) -> CaseFile:
+    """Return a case file with its case.
 
     Raises
     ------
@@ -64,20 +94,24 @@ def read_case(path: str | Path) -> Case:
     """
     path = Path(path)
     try:
-        return case_from(case_values(path), folder=path.parent)
+        content = path.read_bytes()
+        values = _yaml_values(content)
+        case = case_from(values, folder=path.parent)
+    except OSError as error:
+        raise InputError(f"{path.name}: cannot be read: {error.strerror}") from None
     except InputError as error:
         raise InputError(f"{path.name}: {error}") from None
+    sha256 = hashlib.sha256(content).hexdigest()
+    return CaseFile(name=path.name, sha256=sha256, values=values, case=case)
 
 
 _COLON = "mapping values are not allowed here"  # what YAML says of a second colon in a line
 
 
-def case_values(path: Path) -> dict[str, object]:
-    """Return the keys and values of a case file as YAML has them, unchecked."""
+def _yaml_values(content: bytes) -> dict[str, object]:
+    """Return the keys and values of a case file, unchecked."""
     try:
-        values = yaml.load(path.read_bytes().decode("utf-8-sig"), _Loader)
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}") from None
+        values = yaml.load(content.decode("utf-8-sig"), _Loader)
     except UnicodeDecodeError:
         raise InputError("is not UTF-8 text") from None
     except yaml.MarkedYAMLError as error:
@@ -91,11 +125,6 @@ def case_values(path: Path) -> dict[str, object]:
         found = "nothing" if values is None else brief(values)
         raise InputError(f"must be keys and values (key: value), got {found}")
     return values
-
-
-def file_hash(path: Path) -> str:
-    """Return the SHA-256 of a file's bytes, in hexadecimal."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:

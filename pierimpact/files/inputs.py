@@ -4,29 +4,37 @@ import datetime
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, ValidationInfo
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationError,
+    ValidationInfo,
+)
 
-from pierimpact.checks import InputError, not_negative, one_line
-from pierimpact.units import brief, nearest, parse
+from pierimpact.checks import InputError, brief, known, not_negative, one_line
+from pierimpact.symbols import BY_KEY, dimension
+from pierimpact.units import parse
 
 
 def _named(convert: Callable[[str, Any], Any]) -> BeforeValidator:
     """Return a validator that knows the key of its value, so that errors can name it."""
-    return BeforeValidator(lambda value, info: convert(_key(info), value))
+
+    def validate(value: Any, info: ValidationInfo) -> Any:
+        return convert(str(info.field_name), value)
+
+    return BeforeValidator(validate)
 
 
-def _key(info: ValidationInfo) -> str:
-    return str(info.field_name)
+def _parsed(name: str, value: Any) -> float:
+    return parse(name, value, dimension(BY_KEY[name]))
 
 
-def _positive(dimension: str) -> BeforeValidator:
-    def convert(name: str, value: Any) -> float:
-        result = parse(name, value, dimension)
-        if result <= 0.0:
-            raise InputError(f"{name} must be positive, got {brief(value)}")
-        return result
-
-    return _named(convert)
+def _positive(name: str, value: Any) -> float:
+    if (result := _parsed(name, value)) <= 0.0:
+        raise InputError(f"{name} must be positive, got {brief(value)}")
+    return result
 
 
 def _plain_number(name: str, value: Any) -> float:
@@ -48,7 +56,7 @@ def _poisson_ratio(name: str, value: Any) -> float:
 
 
 def _impact_height(name: str, value: Any) -> Any:
-    return value if value == "auto" else parse(name, value, "length")
+    return value if value == "auto" else _parsed(name, value)
 
 
 def _text(name: str, value: Any) -> str:
@@ -67,7 +75,7 @@ def _texts_by_key(name: str, value: Any) -> dict[str, str]:
     if not isinstance(value, dict):
         raise InputError(f"{name} must give a text for each key it lists, got {brief(value)}")
     for key in value:
-        _only_known(name, key, PHYSICAL_KEYS)
+        known(key, PHYSICAL_KEYS, f"a key that {name} can list")
     return {key: _text(f"{name}.{key}", text) for key, text in value.items()}
 
 
@@ -79,13 +87,7 @@ def _date(name: str, value: Any) -> datetime.date:
 
 
 Text = Annotated[str, _named(_text)]
-Length = Annotated[float, _positive("length")]
-Mass = Annotated[float, _positive("mass")]
-Force = Annotated[float, _positive("force")]
-Moment = Annotated[float, _positive("moment")]
-Pressure = Annotated[float, _positive("pressure")]
-Density = Annotated[float, _positive("density")]
-Speed = Annotated[float, _positive("speed")]
+Positive = Annotated[float, _named(_positive)]
 EndCondition = Literal["fixed", "pinned", "free"]
 
 
@@ -100,26 +102,26 @@ class Inputs(BaseModel):
     prepared_by: Text = "—"
     checked_by: Text = "—"
     revision: Text = "—"
-    date: Annotated[datetime.date | None, _named(_date)] = None
+    date: Annotated[datetime.date, _named(_date)] = Field(default_factory=datetime.date.today)
     column_shape: Literal["circular", "rectangular"]
-    column_diameter: Length | None = None
-    column_width: Length | None = None
-    column_depth: Length | None = None
-    column_height: Length
-    elastic_modulus: Pressure | None = None
-    concrete_strength: Pressure | None = None
+    column_diameter: Positive | None = None
+    column_width: Positive | None = None
+    column_depth: Positive | None = None
+    column_height: Positive
+    elastic_modulus: Positive | None = None
+    concrete_strength: Positive | None = None
     poisson_ratio: Annotated[float, _named(_poisson_ratio)] = 0.2
-    density: Density
+    density: Positive
     base: EndCondition
     top: EndCondition
     truck: Text
-    truck_mass: Mass | None = None
-    speed: Speed
+    truck_mass: Positive | None = None
+    speed: Positive
     impact_height: Annotated[float | Literal["auto"], _named(_impact_height)]
     damping_ratio: Annotated[float, _named(_damping_ratio)] = 0.05
     units: Literal["SI", "US"] = "SI"
-    shear_resistance: Force | None = None
-    moment_resistance: Moment | None = None
+    shear_resistance: Positive | None = None
+    moment_resistance: Positive | None = None
     assumed: Annotated[dict[str, str], _named(_texts_by_key)] = {}
     sources: Annotated[dict[str, str], _named(_texts_by_key)] = {}
     notes: Annotated[tuple[str, ...], _named(_texts)] = ()
@@ -127,11 +129,7 @@ class Inputs(BaseModel):
 
 KEYS = tuple(Inputs.model_fields)
 #: Keys whose source a case file can give, or that it can mark as assumed.
-PHYSICAL_KEYS = tuple(
-    key
-    for key in KEYS[KEYS.index("column_shape") : KEYS.index("assumed")]
-    if key not in ("truck", "units")
-)
+PHYSICAL_KEYS = tuple(key for key in KEYS if key in BY_KEY)
 
 
 def read_inputs(values: Mapping[str, object]) -> Inputs:
@@ -143,7 +141,7 @@ def read_inputs(values: Mapping[str, object]) -> Inputs:
         When a key is unknown or missing, or a value breaks a rule.
     """
     for key in values:
-        _only_known("", key, KEYS)
+        known(key, KEYS, "a key of a case file")
     given = {key: value for key, value in values.items() if value is not None}
     try:
         inputs = Inputs(**given)  # type: ignore[arg-type]
@@ -153,15 +151,6 @@ def read_inputs(values: Mapping[str, object]) -> Inputs:
         if key not in given:
             raise InputError(f"{key} is listed under assumed or sources, but is not given")
     return inputs
-
-
-def _only_known(where: str, key: object, known: tuple[str, ...]) -> None:
-    """Refuse a key that is not known; `where` names the key whose own keys these are, if any."""
-    if key not in known:
-        near = nearest(str(key), known)
-        hint = f"; did you mean {near}?" if near else ""
-        kind = f"a key that {where} can list" if where else "a key of a case file"
-        raise InputError(f"{brief(key)} is not {kind}{hint}")
 
 
 def _one_line(error: ValidationError) -> str:

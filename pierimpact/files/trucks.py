@@ -2,38 +2,35 @@
 
 import hashlib
 import tomllib
-from collections.abc import Collection, Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pierimpact.checks import InputError, number, one_line, one_of
+from pierimpact.certainty import Certainty
+from pierimpact.checks import (
+    InputError,
+    brief,
+    did_you_mean,
+    known,
+    number,
+    one_line,
+    one_of,
+)
 from pierimpact.resources import shipped
-from pierimpact.units import brief, nearest, parse
+from pierimpact.symbols import BY_KEY, dimension
+from pierimpact.units import parse
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
 
-#: How sure a value is; everything but "read" is to be checked by whoever relies on it.
-STATUSES = ("read", "secondary", "recalled", "calibrated", "assumed", "illustrative")
-
 _CATALOGUE = shipped("trucks")
-_HEADINGS = ("name", "description", "source", "status")
-_DIMENSIONS = {
-    "engine_mass": "mass",
-    "body_mass": "mass",
-    "friction_force": "force",
-    "friction_on": None,
-    **{
-        f"{spring}.{name}": dimension
-        for spring in ("engine_spring", "body_spring")
-        for name, dimension in (
-            ("plateau_force", "force"),
-            ("plateau_length", "length"),
-            ("stiffness", "stiffness"),
-            ("unloading_stiffness", "stiffness"),
-        )
-    },
-}
+# Words for the status of a parameter; a parameter cited in the source paper was read there.
+_STATUSES = tuple(certainty for certainty in Certainty if certainty is not Certainty.CITED)
+_SPRINGS = ("engine_spring", "body_spring")
+_PARAMETERS = (
+    *("engine_mass", "body_mass", "friction_force", "friction_on"),
+    *(f"{spring}.{name}" for spring in _SPRINGS for name in CrushSpring.__dataclass_fields__),
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,15 +45,17 @@ class Parameter:
         In SI units, or a word.
     given : str
         As the file has it, with its unit.
-    source, status : str
-        Where it comes from, and how sure it is.
+    source : str
+        Where it comes from.
+    status : Certainty
+        How certain it is.
     """
 
     name: str
     value: float | str
     given: str
     source: str
-    status: str
+    status: Certainty
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,8 +66,10 @@ class TruckFile:
     ----------
     truck : Truck
         The truck.
-    description, source, status : str
+    description, source : str
         What the file says of the truck as a whole.
+    status : Certainty
+        How certain the truck is as a whole.
     parameters : tuple of Parameter
         Its parameters, in the order of `Truck` and `CrushSpring`.
     file_name : str
@@ -80,7 +81,7 @@ class TruckFile:
     truck: Truck
     description: str
     source: str
-    status: str
+    status: Certainty
     parameters: tuple[Parameter, ...]
     file_name: str
     sha256: str
@@ -130,11 +131,9 @@ def read_truck_file(name_or_path: str | Path, folder: str | Path = ".") -> Truck
     if text in truck_names():
         return _read(_CATALOGUE / f"{text}.toml")
     if not text.endswith(".toml"):
-        near = nearest(text, truck_names())
-        hint = f"; did you mean {near}?" if near else ""
         raise InputError(
             f"truck must be a name of the catalogue ({', '.join(truck_names())}) or the path of "
-            f"a .toml file, got {brief(text)}{hint}"
+            f"a .toml file, got {brief(text)}{did_you_mean(text, truck_names())}"
         )
     return _read(Path(folder) / text)
 
@@ -150,44 +149,44 @@ def _read(path: Path) -> TruckFile:
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"truck file {path} is not valid TOML: {error}") from None
     try:
-        return _validated(table, path.name, hashlib.sha256(content).hexdigest())
+        return _truck_file(table, path.name, hashlib.sha256(content).hexdigest())
     except InputError as error:
         raise InputError(f"truck file {path.name}: {error}") from None
 
 
-def _validated(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile:
-    entries = {name: table.pop(name, None) for name in _HEADINGS}
-    for name, value in entries.items():
-        if not (isinstance(value, str) and value.strip()):
-            raise InputError(f"{name} must be text, got {brief(value)}")
-        one_line(name, value)
-    one_of("status", entries["status"], STATUSES)
-    for spring in ("engine_spring", "body_spring"):
-        parameters = table.pop(spring, None)
-        if not isinstance(parameters, dict):
-            raise InputError(f"{spring} must be a table of its parameters, got {brief(parameters)}")
-        table |= {f"{spring}.{name}": value for name, value in parameters.items()}
-    _only_known(table, _DIMENSIONS, "a truck parameter")
-    parameters = {name: _parameter(name, table.get(name)) for name in _DIMENSIONS}
-    values = {name: parameter.value for name, parameter in parameters.items()}
-    springs = {}
-    for spring in ("engine_spring", "body_spring"):
-        try:
-            springs[spring] = CrushSpring(
-                **{n: values.pop(f"{spring}.{n}") for n in CrushSpring.__dataclass_fields__}
-            )
-        except InputError as error:
-            raise InputError(f"{spring}.{error}") from None
-    truck = Truck(name=entries["name"], source=entries["source"], **springs, **values)  # type: ignore[arg-type]
+def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile:
+    name, description, source, status = (
+        _text(heading, table.pop(heading, None))
+        for heading in ("name", "description", "source", "status")
+    )
+    certainty = _certainty("status", status)
+    entries = _with_dotted_names(table)
+    for key in entries:
+        known(key, _PARAMETERS, "a truck parameter")
+    parameters = tuple(_parameter(key, entries.get(key)) for key in _PARAMETERS)
+    values: dict[str, Any] = {parameter.name: parameter.value for parameter in parameters}
+    own = {key: value for key, value in values.items() if "." not in key}
+    own |= {spring: _spring(spring, values) for spring in _SPRINGS}
     return TruckFile(
-        truck=truck,
-        description=entries["description"],
-        source=entries["source"],
-        status=entries["status"],
-        parameters=tuple(parameters.values()),
+        truck=Truck(name=name, source=source, **own),
+        description=description,
+        source=source,
+        status=certainty,
+        parameters=parameters,
         file_name=file_name,
         sha256=sha256,
     )
+
+
+def _with_dotted_names(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the parameters by their names, a spring's as "engine_spring.stiffness"."""
+    entries = {key: entry for key, entry in table.items() if key not in _SPRINGS}
+    for spring in _SPRINGS:
+        parameters = table.get(spring)
+        if not isinstance(parameters, dict):
+            raise InputError(f"{spring} must be a table of its parameters, got {brief(parameters)}")
+        entries |= {f"{spring}.{name}": entry for name, entry in parameters.items()}
+    return entries
 
 
 def _parameter(name: str, entry: object) -> Parameter:
@@ -195,34 +194,44 @@ def _parameter(name: str, entry: object) -> Parameter:
         raise InputError(
             f"{name} must be a table with value, unit, source and status, got {brief(entry)}"
         )
-    dimension = _DIMENSIONS[name]
-    keys = ("value", "unit", "source", "status") if dimension else ("value", "source", "status")
-    _only_known(
-        {f"{name}.{key}": None for key in entry}, [f"{name}.{key}" for key in keys], "a key"
-    )
+    kind = dimension(BY_KEY[name])  # none for a word
+    keys = ("value", "unit", "source", "status") if kind else ("value", "source", "status")
+    for key in entry:
+        known(f"{name}.{key}", [f"{name}.{key}" for key in keys], "a key")
     for key in keys:
         if key not in entry:
             raise InputError(f"{name}.{key} is missing")
-        if key != "value":
-            if not (isinstance(entry[key], str) and entry[key].strip()):
-                raise InputError(f"{name}.{key} must be text, got {brief(entry[key])}")
-            one_line(f"{name}.{key}", entry[key])
-    one_of(f"{name}.status", entry["status"], STATUSES)
-    value: float | str
-    if dimension is None:
-        value = given = str(entry["value"])
+    value, texts = entry["value"], {key: _text(f"{name}.{key}", entry[key]) for key in keys[1:]}
+    if not kind:
+        value = given = str(value)
+    elif isinstance(value, bool | str):
+        raise InputError(f"{name}.value must be a number, got {brief(value)}")
     else:
-        if isinstance(entry["value"], bool | str):
-            raise InputError(f"{name}.value must be a number, got {brief(entry['value'])}")
-        given = f"{number(f'{name}.value', entry['value']):.15g} {entry['unit']}"
-        value = parse(name, given, dimension)
+        given = f"{number(f'{name}.value', value):.15g} {texts['unit']}"
+        value = parse(name, given, kind)
     return Parameter(
-        name=name, value=value, given=given, source=entry["source"], status=entry["status"]
+        name=name,
+        value=value,
+        given=given,
+        source=texts["source"],
+        status=_certainty(f"{name}.status", texts["status"]),
     )
 
 
-def _only_known(names: Iterable[str], known: Collection[str], kind: str) -> None:
-    for name in names:
-        if name not in known:
-            near = nearest(name, known)
-            raise InputError(f"{name} is not {kind}" + (f"; did you mean {near}?" if near else ""))
+def _spring(spring: str, values: Mapping[str, Any]) -> CrushSpring:
+    try:
+        return CrushSpring(
+            **{name: values[f"{spring}.{name}"] for name in CrushSpring.__dataclass_fields__}
+        )
+    except InputError as error:
+        raise InputError(f"{spring}.{error}") from None
+
+
+def _text(name: str, value: object) -> str:
+    if not (isinstance(value, str) and value.strip()):
+        raise InputError(f"{name} must be text, got {brief(value)}")
+    return one_line(name, value)
+
+
+def _certainty(name: str, word: str) -> Certainty:
+    return Certainty(one_of(name, word, _STATUSES))

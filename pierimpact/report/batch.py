@@ -1,7 +1,7 @@
-"""Many cases: a report each, some at a time, and a summary of all of them."""
+"""Several cases: a report of each, some at a time, and a summary of all of them."""
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from importlib import import_module
 from pathlib import Path
@@ -11,10 +11,12 @@ from typing import NamedTuple
 from tqdm import tqdm
 
 from pierimpact.checks import InputError
+from pierimpact.report.summary import Row, summary_blocks, summary_csv
 from pierimpact.report.write import (
     OutputError,
     Report,
     ReportError,
+    convert,
     folder_for,
     import_libraries,
     put_in_place,
@@ -47,22 +49,22 @@ class Summary(NamedTuple):
 
 
 class Batch(NamedTuple):
-    """What came of many cases, each in the order they were given in."""
+    """The reports, failures and summary of several cases, in the order the cases were given."""
 
     reports: list[Report]
     failures: list[Failure]
     summary: Summary | None
-    summary_failure: str = ""  #: one line that says why there is no summary where one was due
+    summary_failure: str = ""  #: why the summary could not be written, in one line
 
 
 def find_cases(paths: Iterable[str | Path]) -> list[Path]:
-    """Return the case files that paths lead to, each once.
+    """Return the case files at the given paths, each once.
 
     Parameters
     ----------
     paths : iterable of str or Path
-        Case files, and folders that stand for the *.yaml and *.yml right in them, in the order
-        of their names.
+        Case files, and folders, which stand for the *.yaml and *.yml in them, sorted by name;
+        subfolders are left alone.
 
     Raises
     ------
@@ -73,7 +75,7 @@ def find_cases(paths: Iterable[str | Path]) -> list[Path]:
     for path in map(Path, paths):
         try:
             files = sorted(path.iterdir())
-        except OSError:  # no folder; what is wrong with a file is told when it is read
+        except OSError:  # no folder; whether it is a good file is seen when it is read
             cases = [path]
         else:
             cases = [file for file in files if file.suffix.lower() in ENDINGS]
@@ -89,20 +91,19 @@ def find_cases(paths: Iterable[str | Path]) -> list[Path]:
 def write_reports(
     cases: Sequence[Path], output_dir: str | Path = "reports", *, progress: bool = True
 ) -> Batch:
-    """Write the report of each case; where there are more than one, a summary of them too.
+    """Write the report of each case and, of more than one, summary.html, .pdf and .csv.
 
-    A case that fails stops none of the others, and a summary that fails takes none of the reports
-    with it. The summary is summary.html, summary.pdf and summary.csv; there is none if no case
-    has a report.
+    A case that fails stops none of the others, and a summary that fails leaves the reports. There
+    is no summary if no case has a report.
 
     Parameters
     ----------
     cases : sequence of Path
         Case files, from `find_cases`.
     output_dir : str or Path, optional
-        Folder to write to; it is made if there is none.
+        Folder to write to; created if it does not exist.
     progress : bool, optional
-        Whether to show a progress bar, where there is a terminal to show it on.
+        Whether to show a progress bar if the output is a terminal.
 
     Raises
     ------
@@ -139,15 +140,15 @@ def _refuse_same_names(cases: Sequence[Path]) -> None:
 
 
 class _Stopped(BaseException):
-    """Ends a report that is under way: not an error of its own, and so not kept as one."""
+    """Ends a report in progress: not an error of its own, and so not kept as one."""
 
 
 def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[Report | Failure]:
     """Return the report or failure of each case, in order."""
-    stop, lock = Event(), Lock()
+    stop, lock, stages_of_each = Event(), Lock(), stages()
 
     def write(case: Path) -> Report | Failure:
-        left = stages()
+        left = stages_of_each
 
         def on_stage() -> None:
             nonlocal left
@@ -158,17 +159,8 @@ def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[
                 left -= 1
 
         try:
-            return write_report(case, output_dir, on_stage=on_stage)
-        except OutputError:
-            raise  # it is the same for all
-        except InputError as error:
-            return Failure(case, _line(error), bad_input=True)
-        except ReportError as error:
-            return Failure(case, _line(error), bad_input=False)
-        except Exception as error:
-            return Failure(case, f"{case.name}: {_line(reason_of(error))}", bad_input=False)
+            return _write_one(case, output_dir, on_stage)
         finally:
-            _close_event_loop()
             with lock:
                 bar.update(left)
 
@@ -178,7 +170,7 @@ def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[
         import_libraries()
     with (
         tqdm(
-            total=len(cases) * stages(),
+            total=len(cases) * stages_of_each,
             desc=f"0 of {len(cases)} cases" if several else cases[0].stem,
             disable=None if progress else True,
             leave=False,
@@ -201,6 +193,20 @@ def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[
     return [future.result() for future in futures]
 
 
+def _write_one(case: Path, output_dir: Path, on_stage: Callable[[], object]) -> Report | Failure:
+    """Return the report or failure of a case."""
+    try:
+        return write_report(case, output_dir, on_stage=on_stage)
+    except OutputError:
+        raise  # it is the same for all cases
+    except (InputError, ReportError) as error:
+        return Failure(case, _line(error), bad_input=isinstance(error, InputError))
+    except Exception as error:
+        return Failure(case, f"{case.name}: {_line(reason_of(error))}", bad_input=False)
+    finally:
+        _close_event_loop()
+
+
 def _is_written(future: Future[Report | Failure]) -> bool:
     if future.cancelled() or future.exception() is not None:
         return False
@@ -221,25 +227,15 @@ def _line(error: Exception | str) -> str:
 
 def _write_summary(results: Sequence[Report | Failure], output_dir: Path) -> Summary:
     """Write the summary in all its formats, all or none."""
-    from pierimpact.report.calculation import calculate
-    from pierimpact.report.summary import Row, summary_blocks, summary_csv
-
-    exporters = import_module(
-        "pierimpact.report.exporters"
-    )  # it takes a while: no error waits for it
+    notebook_of = import_module("pierimpact.report.exporters").notebook_of  # slow to import
     rows = [
-        Row(result.html.stem, calculate(result.case), result.warnings)
+        Row(result.html.stem, result.results, result.warnings)
         if isinstance(result, Report)
         else Row(result.case.stem, None, [result.reason])
         for result in results
     ]
-    notebook = exporters.notebook_of(summary_blocks(rows))
     with folder_for(output_dir, SUMMARY) as folder:
-        files = Summary(*(folder / f"{SUMMARY}.{ending}" for ending in ("html", "pdf", "csv")))
-        page, _ = exporters.SheetHTMLExporter().from_notebook_node(notebook)
-        files.html.write_text(page, encoding="utf-8")
-        pdf, _ = exporters.SheetPDFExporter().from_notebook_node(notebook)
-        files.pdf.write_bytes(pdf)
-        files.csv.write_bytes(summary_csv(rows).encode("utf-8"))
-        put_in_place(files, output_dir)
-    return Summary(*(output_dir / file.name for file in files))
+        html, pdf, csv = (folder / f"{SUMMARY}.{ending}" for ending in ("html", "pdf", "csv"))
+        convert(notebook_of(summary_blocks(rows)), html, pdf)
+        csv.write_bytes(summary_csv(rows).encode("utf-8"))
+        return Summary(*put_in_place((html, pdf, csv), output_dir))

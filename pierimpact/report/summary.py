@@ -1,19 +1,18 @@
 """The summary of many cases, a row each: as a sheet, and as CSV for a spreadsheet."""
 
 import csv
-import datetime
 import io
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import pierimpact
-from pierimpact.report.calculation import Calculation
 from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph, TitleBlock
 from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table
-from pierimpact.report.sheet.inputs import STATUS_WORDS
+from pierimpact.report.results import Results
 from pierimpact.report.sheet.summary import limits_of_the_study
+from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 
 NONE = "none"  # instead of a peak that is not there
@@ -23,52 +22,28 @@ class Row(NamedTuple):
     """A case of the summary."""
 
     name: str  #: of its report's files, without ending
-    calculation: Calculation | None  #: None where it has no report
+    results: Results | None  #: None where it has no report
     remarks: Sequence[str]  #: warnings of its report, or why there is none
 
 
 class _Quantity(NamedTuple):
     """A value of each case: a column of a table and one of the CSV."""
 
-    name: str
+    attribute: str  #: of Results
     heading: Piece
     quantity: str
-    value: Callable[[Calculation], float | None]
     given: bool = False
 
 
-_GIVEN = (
-    _Quantity(
-        "truck mass", Tex("m_1 + m_2"), "mass", lambda result: result.case.truck.mass, given=True
-    ),
-    _Quantity("speed", Tex("V"), "speed", lambda result: result.case.inputs.speed, given=True),
-    _Quantity(
-        "impact height",
-        Tex(r"z_\mathrm{n}"),
-        "length",
-        lambda result: result.struck.impact_height,
-        given=True,
-    ),
+_GIVEN = tuple(
+    _Quantity(key, Tex(BY_KEY[key].latex), BY_KEY[key].quantity, given=True)
+    for key in ("truck_mass", "speed", "impact_height")
 )
 _RESULTS = (
-    _Quantity(
-        "pier frequency", Tex(r"f_\mathrm{p}"), "frequency", lambda result: result.pier.frequency
-    ),
-    _Quantity(
-        "engine peak", "Engine peak", "force", lambda result: result.history.engine_peak.reaction
-    ),
-    _Quantity(
-        "cargo peak",
-        "Cargo peak",
-        "force",
-        lambda result: cargo.reaction if (cargo := result.history.cargo_peak) else None,
-    ),
-    _Quantity(
-        "design reaction",
-        "Design reaction",
-        "force",
-        lambda result: result.design_force,
-    ),
+    _Quantity("pier_frequency", Tex(r"f_\mathrm{p}"), "frequency"),
+    _Quantity("engine_peak", "Engine peak", "force"),
+    _Quantity("cargo_peak", "Cargo peak", "force"),
+    _Quantity("design_reaction", "Design reaction", "force"),
 )
 _UTILISATIONS = ("shear", "moment")
 
@@ -78,11 +53,11 @@ def summary_blocks(rows: Sequence[Row]) -> list[Block]:
     results = _calculated(rows)
     system = _system(results.values())
     blocks = [_title_block(list(results.values()), system), _headline(rows, system)]
-    failures = [row.remarks for row in rows if row.calculation is None]
+    failures = [row.remarks for row in rows if row.results is None]
     if failures:
         blocks.append(Notice(heading="Not calculated", body=["; ".join(why) for why in failures]))
     blocks += [_results_table(rows, system), _cases_table(rows, system)]
-    if len({result.case.inputs.units for result in results.values()}) > 1:
+    if len({result.units for result in results.values()}) > 1:
         blocks.append(Paragraph("The reports are not all in the same units; this table is in SI."))
     blocks.append(
         Paragraph(
@@ -104,7 +79,10 @@ def summary_csv(rows: Sequence[Row]) -> str:
     """
     system = _system(_calculated(rows).values())
     columns = (*_GIVEN, *_RESULTS)
-    quantities = [f"{column.name} [{unit_of(column.quantity, system)}]" for column in columns]
+    quantities = [
+        f"{column.attribute.replace('_', ' ')} [{unit_of(column.quantity, system)}]"
+        for column in columns
+    ]
     utilisations = [f"utilisation in {name}" for name in _UTILISATIONS]
     words = ["case", "project", "job number", "element", "column", "truck"]
     header = [*words, *quantities, "governs", *utilisations, "status", "remarks"]
@@ -115,10 +93,9 @@ def summary_csv(rows: Sequence[Row]) -> str:
     for name, result, remarks in rows:
         values: list[str | float | None] = [None] * (len(header) - 3)
         if result is not None:
-            inputs, truck = result.case.inputs, result.case.truck.name
             values = [
-                *(inputs.project, inputs.job_number, inputs.element, _column(result, system)),
-                truck,
+                *(result.project, result.job_number, result.element, _column(result, system)),
+                result.truck,
                 *(_in_unit(column, result, system) for column in columns),
                 result.governs,
                 *(result.utilisations.get(check) for check in _UTILISATIONS),
@@ -138,22 +115,21 @@ def no_formula(text: str) -> str:
     return re.sub(r"(^|;)(\s*[=+\-@＝＋－＠])", r"\1'\2", text)
 
 
-def _calculated(rows: Iterable[Row]) -> dict[str, Calculation]:
-    return {row.name: row.calculation for row in rows if row.calculation is not None}
+def _calculated(rows: Iterable[Row]) -> dict[str, Results]:
+    return {row.name: row.results for row in rows if row.results is not None}
 
 
-def _system(results: Iterable[Calculation]) -> str:
+def _system(results: Iterable[Results]) -> str:
     """Return the units that all cases print in; SI where they differ."""
-    systems = {result.case.inputs.units for result in results}
+    systems = {result.units for result in results}
     return systems.pop() if len(systems) == 1 else "SI"
 
 
-def _title_block(results: Sequence[Calculation], system: str) -> Block:
-    inputs = [result.case.inputs for result in results]
-    date = max(one.date or datetime.date.today() for one in inputs).isoformat()
+def _title_block(results: Sequence[Results], system: str) -> Block:
+    date = max(result.date for result in results).isoformat()
 
     def common(key: str) -> str:
-        texts = {getattr(one, key) for one in inputs}
+        texts = {getattr(result, key) for result in results}
         return texts.pop() if len(texts) == 1 else "several"
 
     return TitleBlock(
@@ -178,8 +154,8 @@ def _title_block(results: Sequence[Calculation], system: str) -> Block:
 def _headline(rows: Sequence[Row], system: str) -> Block:
     """Return how many cases there are, and the worst of them."""
     results = _calculated(rows)
-    worst = max(results, key=lambda name: results[name].design_force)
-    reaction = printed(results[worst].design_force, "force", system)
+    worst = max(results, key=lambda name: results[name].design_reaction)
+    reaction = printed(results[worst].design_reaction, "force", system)
     entries = [
         ("Cases calculated", Printed(str(len(results)), ""), f"of {len(rows)}"),
         ("Largest design reaction", reaction, worst),
@@ -198,7 +174,7 @@ def _headline(rows: Sequence[Row], system: str) -> Block:
 
 
 def _results_table(rows: Sequence[Row], system: str) -> Block:
-    """Return what came of the calculated cases, a row each."""
+    """Return the results of the calculated cases, a row each."""
     results = _calculated(rows)
     remarks = {row.name: row.remarks for row in rows}
     checks = [
@@ -239,17 +215,17 @@ def _results_table(rows: Sequence[Row], system: str) -> Block:
 
 
 def _cases_table(rows: Sequence[Row], system: str) -> Block:
-    """Return what strikes what in the calculated cases, a row each."""
+    """Return column, truck and collision of the calculated cases, a row each."""
     results = _calculated(rows)
     # A project that all share stands in the title block.
-    projects = len({result.case.inputs.project for result in results.values()}) > 1
+    projects = len({result.project for result in results.values()}) > 1
     cells: list[list[Inline]] = [
         [
             _link(name),
-            *([result.case.inputs.project] if projects else []),
-            result.case.inputs.element,
+            *([result.project] if projects else []),
+            result.element,
             _column(result, system),
-            result.case.truck.name,
+            result.truck,
             *(_shown(column, result, system) for column in _GIVEN),
         ]
         for name, result in results.items()
@@ -287,44 +263,38 @@ def _heading(column: _Quantity, system: str) -> Column:
     )
 
 
-def _in_unit(column: _Quantity, result: Calculation, system: str) -> float | None:
-    value = column.value(result)
+def _in_unit(column: _Quantity, result: Results, system: str) -> float | None:
+    value = getattr(result, column.attribute)
     return None if value is None else value / unit_size(column.quantity, system)
 
 
-def _shown(column: _Quantity, result: Calculation, system: str) -> str:
-    value = column.value(result)
+def _shown(column: _Quantity, result: Results, system: str) -> str:
+    value = getattr(result, column.attribute)
     if value is None:
         return NONE
     return printed(value, column.quantity, system, given=column.given).number
 
 
-def _column(result: Calculation, system: str) -> str:
+def _column(result: Results, system: str) -> str:
     """Return the column in a few words."""
-    inputs = result.case.inputs
-    sizes = [
-        printed(size, "section length", system, given=True)
-        for size in (inputs.column_diameter, inputs.column_width, inputs.column_depth)
-        if size is not None
-    ]
+    sizes = [printed(size, "section length", system, given=True) for size in result.column_sizes]
     section = " × ".join(size.number for size in sizes)
-    height = printed(inputs.column_height, "length", system, given=True)
+    height = printed(result.column_height, "length", system, given=True)
     return (
-        f"{inputs.column_shape} {section} {sizes[0].unit}, {height} high, "
-        f"base {inputs.base}, top {inputs.top}"
+        f"{result.column_shape} {section} {sizes[0].unit}, {height} high, "
+        f"base {result.base}, top {result.top}"
     )
 
 
-def _remarks(result: Calculation | None, system: str) -> list[str]:
+def _remarks(result: Results | None, system: str) -> list[str]:
     """Return what to know before relying on a row."""
     if result is None:
         return []
-    status, assumed = result.case.truck_file.status, len(result.case.inputs.assumed)
-    remarks = [] if status == "read" else [f"truck {STATUS_WORDS[status]}"]
-    if assumed:
-        remarks.append(f"{assumed} input{'s' * (assumed > 1)} assumed")
-    if result.history.engine_contact_time is None:
+    remarks = [] if result.truck_status.verified else [f"truck {result.truck_status.words}"]
+    if result.assumed:
+        remarks.append(f"{result.assumed} input{'s' * (result.assumed > 1)} assumed")
+    if not result.engine_contact:
         remarks.append("no engine contact")
-    remarks += limits_of_the_study(result, system)
+    remarks += limits_of_the_study(result.outside, result.overlapping, system)
     exceeded = [check for check, ratio in result.utilisations.items() if ratio > 1.0]
     return remarks + [f"exceeds the resistance to {check}" for check in exceeded]

@@ -1,46 +1,46 @@
 """From a case file to its report: the executed notebook, an HTML page and a PDF."""
 
 import contextlib
-import datetime
 import json
 import logging
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from pierimpact.checks import InputError
-from pierimpact.files.case import Case, case_values, file_hash, read_case
+from pierimpact.files.case import read_case_file
+from pierimpact.report.results import Results
 from pierimpact.resources import PACKAGE, shipped
 
-_EXPORTERS = "pierimpact.report.exporters"
+_EXPORTERS = "pierimpact.report.exporters"  # slow to import
 _KERNEL_ARGUMENTS = [
     # Lets the kernel, which starts in another folder, import this very package.
     f"--IPKernelApp.exec_lines=import sys; sys.path.insert(0, {str(PACKAGE.parent)!r})",
-    # What goes wrong in a cell is told by the cell; that it is interrupted at its end, by none.
+    # An error in a cell is in its output; the interrupt that ends the kernel is none.
     "--log-level=CRITICAL",
 ]
 
 
 class ReportError(RuntimeError):
-    """The report of a good case could not be made; the message says why in one line."""
+    """The report of a valid case could not be made; the message says why in one line."""
 
 
 class OutputError(InputError):
-    """The folder to write to cannot be written to, by no report."""
+    """The output folder cannot be written to, whatever the case."""
 
 
 class Report(NamedTuple):
-    """The files of a report, what is wrong with them, and the case they report."""
+    """The files of a report, warnings about them, and the results of the case."""
 
     notebook: Path
     html: Path
     pdf: Path
     warnings: list[str]
-    case: Case
+    results: Results
 
 
 def report_notebook() -> Path:
@@ -49,7 +49,7 @@ def report_notebook() -> Path:
 
 
 def stages() -> int:
-    """Return how often a report tells of its progress: per cell, and for HTML and PDF."""
+    """Return the number of stages of a report: one for each cell, one for HTML, one for PDF."""
     notebook = json.loads(report_notebook().read_text(encoding="utf-8"))
     kinds = [cell["cell_type"] for cell in notebook["cells"]]
     return kinds.count("code") + 3  # papermill adds a cell
@@ -70,10 +70,10 @@ def write_report(
     case_path : str or Path
         Case file; its name without ending is NAME.
     output_dir : str or Path, optional
-        Folder to write to; it is made if there is none.
+        Folder to write to; created if it does not exist.
     on_stage : callable, optional
-        Called after each of its `stages`, perhaps in other threads; what it raises ends the
-        report.
+        Called after each of its `stages`, possibly in other threads; an exception from it ends
+        the report.
 
     Raises
     ------
@@ -84,93 +84,32 @@ def write_report(
         When the notebook or a conversion fails; the notebook is kept as NAME.failed.ipynb.
     """
     case_path, output_dir = Path(case_path).absolute(), Path(output_dir).absolute()
-    case = read_case(case_path)
-    parameters = _parameters(case_path)
+    parameters = read_case_file(case_path).parameters
     name = case_path.stem
     failed = output_dir / f"{name}.failed.ipynb"
     with folder_for(output_dir, name) as folder:
-        files = {ending: folder / f"{name}.{ending}" for ending in ("ipynb", "html", "pdf")}
+        executed, html, pdf = (folder / f"{name}.{ending}" for ending in ("ipynb", "html", "pdf"))
         try:
-            notebook = _execute(parameters, case_path.parent, files["ipynb"], on_stage)
-            warnings = _convert(notebook, files, on_stage)
-            put_in_place(files.values(), output_dir)
+            notebook = _execute(parameters, case_path.parent, executed, on_stage)
+            results = Results.in_notebook(notebook)
+            warnings = convert(notebook, html, pdf, on_stage)
+            executed, html, pdf = put_in_place((executed, html, pdf), output_dir)
         except Exception as error:
             message = f"{case_path.name}: {reason_of(error)}"
-            if files["ipynb"].is_file():
-                files["ipynb"].replace(failed)
+            if executed.is_file():
+                executed.replace(failed)
                 message += f"; the notebook is kept as {failed}"
             raise ReportError(message) from error
     failed.unlink(missing_ok=True)
-    notebook_path, html, pdf = (output_dir / file.name for file in files.values())
-    return Report(notebook_path, html, pdf, warnings, case)
-
-
-@contextlib.contextmanager
-def folder_for(output_dir: Path, name: str) -> Iterator[Path]:
-    """Make a folder in `output_dir` to write files called `name` in; it is gone afterwards.
-
-    Raises
-    ------
-    OutputError
-        When it cannot be made.
-    """
-    try:
-        output_dir.mkdir(parents=True, exist_ok=True)
-        folder = tempfile.TemporaryDirectory(dir=output_dir, prefix=f".{name}-")
-    except (FileExistsError, NotADirectoryError):
-        raise OutputError(f"output {output_dir} must be a folder, and there is a file") from None
-    except OSError as error:
-        raise OutputError(f"output {output_dir} cannot be written to: {error.strerror}") from None
-    with folder:
-        yield Path(folder.name)
-
-
-def put_in_place(files: Iterable[Path], output_dir: Path) -> None:
-    """Move finished files to where they belong, the last first.
-
-    That is the one most likely to be open in a viewer that locks it.
-    """
-    for file in reversed(list(files)):
-        file.replace(output_dir / file.name)
-
-
-def _parameters(case_path: Path) -> dict[str, Any]:
-    """Return the notebook's parameters, as plain values."""
-    values = case_values(case_path) | {
-        "case_file": case_path.name,
-        "case_sha256": file_hash(case_path),
-    }
-    return {
-        key: value.isoformat() if isinstance(value, datetime.date) else value
-        for key, value in values.items()
-    }
-
-
-def import_libraries() -> None:
-    """Import what takes a while to import, all of it.
-
-    A single report imports the exporters while its kernel works; before several are written side
-    by side, one thread imports it all, and no other meets a module that is half imported.
-    """
-    _import_papermill()
-    import_module(_EXPORTERS)
-
-
-def _import_papermill() -> Any:
-    # What goes wrong is raised, and told once.
-    logging.getLogger("papermill").addHandler(logging.NullHandler())
-    logging.getLogger("papermill").propagate = False
-    with _without_web_address_grammar():
-        return import_module("papermill")
+    return Report(executed, html, pdf, warnings, results)
 
 
 def _execute(
     parameters: dict[str, Any], folder: Path, output: Path, on_stage: Callable[[], object]
 ) -> Any:
     """Execute the notebook in the case file's folder and return it."""
-    with _without_web_address_grammar():
-        papermill = import_module("papermill")
-        config = import_module("traitlets.config").Config()
+    papermill = _import_papermill()
+    config = import_module("traitlets.config").Config()
     config.KernelManager.transport_encryption = "auto"  # or else the kernel prints a warning
     started = False
 
@@ -190,42 +129,43 @@ def _execute(
             kernel_name="python3",
             progress_bar=False,
             request_save_on_cell_execute=False,
-            shutdown_kernel="immediate",  # it has nothing to put away
+            shutdown_kernel="immediate",  # it has nothing to save
             config=config,
             on_cell_executed=on_cell_executed,
         )
 
-    # The exporters take a while to import: that is done while the kernel works.
     with ThreadPoolExecutor(1) as executor:
-        executor.submit(import_module, _EXPORTERS)
+        executor.submit(import_module, _EXPORTERS)  # while the kernel works
         try:
             return execute()
         except RuntimeError:
             if started:
                 raise
-            # Somebody else may have taken the ports chosen for the kernel before it had them.
+            # Another process may have taken the ports chosen for the kernel before it had them.
             return execute()
 
 
-def _convert(notebook: Any, files: dict[str, Path], on_stage: Callable[[], object]) -> list[str]:
-    """Write the executed notebook as HTML and as PDF; return the warnings."""
+def convert(
+    notebook: Any, html: Path, pdf: Path, on_stage: Callable[[], object] = lambda: None
+) -> list[str]:
+    """Write an executed notebook as HTML and as PDF; return the warnings."""
     exporters = import_module(_EXPORTERS)
 
     def write_html() -> None:
         page, _ = exporters.SheetHTMLExporter().from_notebook_node(notebook)
-        files["html"].write_text(page, encoding="utf-8")
+        html.write_text(page, encoding="utf-8")
         on_stage()
 
     def write_pdf() -> list[str]:
-        pdf, resources = exporters.SheetPDFExporter().from_notebook_node(notebook)
-        files["pdf"].write_bytes(pdf)
+        document, resources = exporters.SheetPDFExporter().from_notebook_node(notebook)
+        pdf.write_bytes(document)
         on_stage()
         return list(resources["warnings"])
 
     with ThreadPoolExecutor(2) as executor:
-        html, pdf = executor.submit(write_html), executor.submit(write_pdf)
-        html.result()
-        return pdf.result()
+        html_written, pdf_written = executor.submit(write_html), executor.submit(write_pdf)
+        html_written.result()
+        return pdf_written.result()
 
 
 def reason_of(error: Exception) -> str:
@@ -237,18 +177,56 @@ def reason_of(error: Exception) -> str:
 
 
 @contextlib.contextmanager
-def _without_web_address_grammar() -> Iterator[None]:
-    """Keep jsonschema from an import of one to two seconds that no notebook needs.
+def folder_for(output_dir: Path, name: str) -> Iterator[Path]:
+    """Make a temporary folder in `output_dir` to write files called `name` in.
 
-    Where JupyterLab is installed, jsonschema finds rfc3987_syntax, which compiles a grammar of
-    web addresses on import; papermill imports jsonschema to check notebooks, which have none.
+    Raises
+    ------
+    OutputError
+        When it cannot be made.
     """
-    absent = "rfc3987_syntax"
-    if absent in sys.modules:
-        yield
-        return
-    sys.modules[absent] = None  # type: ignore[assignment]
     try:
-        yield
+        output_dir.mkdir(parents=True, exist_ok=True)
+        folder = tempfile.TemporaryDirectory(dir=output_dir, prefix=f".{name}-")
+    except (FileExistsError, NotADirectoryError):
+        raise OutputError(f"output {output_dir} must be a folder, and there is a file") from None
+    except OSError as error:
+        raise OutputError(f"output {output_dir} cannot be written to: {error.strerror}") from None
+    with folder:
+        yield Path(folder.name)
+
+
+def put_in_place(files: Sequence[Path], output_dir: Path) -> list[Path]:
+    """Move finished files to the output folder and return where they are.
+
+    The last is moved first: it is the one most likely to be open in a viewer that locks it.
+    """
+    return [file.replace(output_dir / file.name) for file in reversed(files)][::-1]
+
+
+def import_libraries() -> None:
+    """Import all that is slow to import.
+
+    A single report imports the exporters while its kernel works; before several are written side
+    by side, one thread imports everything, so that no other meets a half-imported module.
+    """
+    _import_papermill()
+    import_module(_EXPORTERS)
+
+
+def _import_papermill() -> Any:
+    """Import papermill, in one to two seconds less where JupyterLab is installed.
+
+    There jsonschema, with which papermill checks notebooks, finds rfc3987_syntax, which compiles
+    a grammar of web addresses on import; notebooks have none to check.
+    """
+    logging.getLogger("papermill").addHandler(logging.NullHandler())  # its errors are raised
+    logging.getLogger("papermill").propagate = False
+    grammar = "rfc3987_syntax"
+    modules: dict[str, Any] = sys.modules
+    modules.setdefault(grammar, None)
+    try:
+        return import_module("papermill")
     finally:
-        sys.modules.pop(absent, None)  # another thread may have been here first
+        if modules.get(grammar) is None:
+            modules.pop(grammar, None)  # another thread may have been here first

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from pierimpact.checks import InputError
-from pierimpact.units import brief, parse
+from pierimpact.checks import InputError, brief
+from pierimpact.units import parse
 
 
 class Trap(NamedTuple):

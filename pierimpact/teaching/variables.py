@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, fields
 
-from pierimpact.checks import InputError, number
+from pierimpact.checks import InputError, brief, number
 from pierimpact.teaching.scenario import REFERENCE, Scenario
-from pierimpact.units import brief, parse
+from pierimpact.units import parse
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,6 +2,7 @@
 
 from pierimpact.files.case import Case
 from pierimpact.report.calculation import calculate
+from pierimpact.report.results import Results
 from pierimpact.report.sheet.codes import Codes
 from pierimpact.report.sheet.design_procedure import DesignProcedure
 from pierimpact.report.sheet.equivalent_pier import EquivalentPierSteps
@@ -38,3 +39,7 @@ class Sheet:
         self.sensitivity = Variations(self.calculation)
         sections = (self.inputs, self.pier, self.procedure, self.model, self.member_forces)
         self.closing = Closing(self.calculation, sections, case_file, case_sha256)
+
+    def results(self) -> Results:
+        """Return the results that a summary of several cases is made from."""
+        return Results.of(self.calculation)

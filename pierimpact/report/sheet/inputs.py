@@ -9,16 +9,6 @@ from pierimpact.report.document.numbered import Column, Table
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, NAMES, Symbol
 
-# How the statuses of a truck file read in print.
-STATUS_WORDS = {
-    "read": "read in the source",
-    "secondary": "unverified: second-hand",
-    "recalled": "unverified: from memory",
-    "calibrated": "calibrated",
-    "assumed": "assumed",
-    "illustrative": "illustrative",
-}
-
 
 class Inputs(Section):
     """What the calculation starts from."""
@@ -62,7 +52,7 @@ class Inputs(Section):
         case = self.case
         rows = []
         for parameter in case.truck_file.parameters:
-            status, source = STATUS_WORDS[parameter.status], parameter.source
+            status, source = parameter.status.words, parameter.source
             value = parameter.value
             if parameter.name == "body_mass" and case.inputs.truck_mass is not None:
                 value = case.truck.body_mass

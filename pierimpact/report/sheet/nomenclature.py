@@ -11,7 +11,6 @@ import pierimpact
 from pierimpact.report.document.blocks import Block, Nomenclature
 from pierimpact.report.document.markup import Code, Inline, Ref, Tex, inline
 from pierimpact.report.document.numbered import Column, Table
-from pierimpact.report.sheet.inputs import STATUS_WORDS
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
@@ -73,7 +72,7 @@ class Closing(Section):
         energy = _closes(history.energy_error, "the truck’s initial energy")
         momentum = _closes(history.momentum_error, "the truck’s initial momentum")
         rows += [
-            ["Truck file", (Code(truck_file.file_name), f", {STATUS_WORDS[truck_file.status]}")],
+            ["Truck file", (Code(truck_file.file_name), f", {truck_file.status.words}")],
             ["its SHA-256", Code(truck_file.sha256)],
             ["Energy balance", energy],
             ["Momentum balance", momentum],

@@ -1,8 +1,8 @@
 """The first page: head, results, warnings and contents."""
 
-import datetime
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from pierimpact.design.domain import Outside
 from pierimpact.report.calculation import Calculation
 from pierimpact.report.document.blocks import (
     Block,
@@ -12,7 +12,6 @@ from pierimpact.report.document.blocks import (
     Paragraph,
     TitleBlock,
 )
-from pierimpact.report.sheet.inputs import STATUS_WORDS
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, printed, rounded
@@ -22,9 +21,9 @@ class Summary(Section):
     """The first page."""
 
     def title_block(self) -> Block:
-        """Return the head of the sheet; where the case gives no date, it is today's."""
+        """Return the head of the sheet."""
         inputs = self.case.inputs
-        date = (inputs.date or datetime.date.today()).isoformat()
+        date = inputs.date.isoformat()
         return TitleBlock(
             title="Truck collision with a bridge pier",
             subtitle="Calculation sheet. Coupled mass-spring-damper (CMSD) model of the collision",
@@ -120,20 +119,20 @@ def verdict(ratio: float) -> str:
 
 def limitations(calculation: Calculation) -> Iterator[str]:
     """Yield all that limits the results, a sentence each, the user's own notes last."""
-    case = calculation.case
+    case, design = calculation.case, calculation.design
     for name, ratio in calculation.utilisations.items():
         if ratio > 1.0:
             yield f"The {name} is {rounded(ratio, 3)} times the resistance."
-    limits = "; ".join(limits_of_the_study(calculation, case.inputs.units))
+    limits = "; ".join(limits_of_the_study(design.outside, design.overlapping, case.inputs.units))
     if limits:
         yield (
             "The design procedure was not checked for this case; compare it with the full model. "
             f"{limits[:1].upper()}{limits[1:]}."
         )
     status = case.truck_file.status
-    if status != "read":
+    if not status.verified:
         yield (
-            f"The truck {case.truck.name} is {STATUS_WORDS[status]} ({case.truck_file.source}). "
+            f"The truck {case.truck.name} is {status.words} ({case.truck_file.source}). "
             "The results are no better than its parameters."
         )
     if case.inputs.assumed:
@@ -142,21 +141,23 @@ def limitations(calculation: Calculation) -> Iterator[str]:
     yield from case.inputs.notes
 
 
-def limits_of_the_study(calculation: Calculation, system: str) -> list[str]:
+def limits_of_the_study(outside: Sequence[Outside], overlapping: bool, system: str) -> list[str]:
     """Return a clause for each limit of the study behind the procedure that the case exceeds.
 
     Parameters
     ----------
-    calculation : Calculation
-        The calculation.
+    outside : sequence of Outside
+        The values outside the studied domain.
+    overlapping : bool
+        Whether the cargo meets the pier before the engine lets go.
     system : {"SI", "US"}
         Units to print in.
     """
     clauses = []
-    for name, *values in calculation.design.outside:
+    for name, *values in outside:
         meaning, _, quantity, _ = SYMBOLS[name]
         shown, least, most = (printed(value, quantity, system, given=True) for value in values)
         clauses.append(f"{meaning} {shown} outside the studied {least.number} to {most}")
-    if calculation.design.overlapping:
+    if overlapping:
         clauses.append("the cargo meets the pier before the engine lets go")
     return clauses
