@@ -219,12 +219,12 @@ def test_the_figures_follow_a_slider_with_the_packages_values(page):
     before = page.pixels()
     assert len(before) == 5  # picture, forces, energy and two spectra
     assert force(Scenario().history.engine_peak.reaction) in page.readout()
-    page.press(page.slider("Speed V"), keys.ARROW_LEFT, 10)
+    page.press(page.slider("Speed at first touch"), keys.ARROW_LEFT, 10)
     history = Scenario(speed=70.0 / 3.6).history
     until(lambda: force(history.engine_peak.reaction) in page.readout())
     assert force(history.cargo_peak.reaction) in page.readout()
     until(lambda: all(old != new for old, new in zip(before, page.pixels(), strict=True)))
-    page.press(page.slider("Speed V"), keys.ARROW_RIGHT, 10)
+    page.press(page.slider("Speed at first touch"), keys.ARROW_RIGHT, 10)
     until(lambda: force(Scenario().history.engine_peak.reaction) in page.readout())
 
 
@@ -262,14 +262,14 @@ def test_a_mechanism_is_said_in_a_sentence_where_the_figures_were(page):
 
 
 def test_no_contact_is_said_in_a_sentence(page):
-    page.type("Speed V", "20 km/h")
+    page.type("Speed at first touch", "20 km/h")
     until(lambda: "Neither engine nor cargo reaches the pier" in page.readout())
     page.button("Reset").click()
     until(lambda: "The engine governs" in page.readout())
 
 
 def test_nonsense_is_answered_in_a_sentence(page):
-    page.type("Speed V", "fast")
+    page.type("Speed at first touch", "fast")
     assert "must be a speed" in page.one(".pierimpact-live [role=alert]").text
     page.button("Reset").click()
     until(lambda: not page.all(".pierimpact-live [role=alert]"))
@@ -305,7 +305,7 @@ def test_voila_serves_the_explorer_without_code(browser, tmp_path):
         until(app.figures)
         assert not app.all(".jp-CodeCell .jp-InputArea-editor")
         assert not app.one(".pierimpact-still").is_displayed()
-        app.type("Speed V", "70 km/h")
+        app.type("Speed at first touch", "70 km/h")
         history = Scenario(speed=70.0 / 3.6).history
         until(lambda: force(history.cargo_peak.reaction) in app.readout())
         app.holds_no_error()

@@ -91,7 +91,7 @@ def test_any_unit_and_the_tolerance_count_as_right(given):
 def test_the_score_follows_the_answers(monkeypatch):
     monkeypatch.setattr(exercises, "_SCORES", {})
     shown = []
-    monkeypatch.setattr(exercises, "display", lambda what, **_: shown.append(what))
+    monkeypatch.setattr(exercises, "show", lambda widget, still: shown.append(widget))
     exercises.score("collision")
     board = shown[0]
     assert board.value.count("not tried yet") == len(QUESTIONS["collision"])

@@ -85,7 +85,7 @@ def test_other_tables(validation):
     assert limits["Speed"] == {"From": 50.0, "To": 110.0}
     spectrum = numbers(validation.spectrum())
     assert 1.0 < spectrum["Engine"]["Mean"] < 1.1
-    speeds = numbers(validation.approach_speeds())
+    speeds = numbers(validation.contact_speeds())
     assert set(speeds) == {"Engine, refined", "Cargo, refined", "Engine, hand", "Cargo, hand"}
     assert abs(speeds["Engine, refined"]["Mean"]) < 0.05
 

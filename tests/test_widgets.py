@@ -15,7 +15,8 @@ from pierimpact.teaching.explorer import PAUSE
 from pierimpact.teaching.live import LiveWords
 from pierimpact.teaching.readouts import outcome
 from pierimpact.teaching.scenario import REFERENCE, Scenario
-from pierimpact.teaching.variables import CRUSH, VARIABLES, case_text, truck_text
+from pierimpact.teaching.scenario_files import case_text, truck_text
+from pierimpact.teaching.variables import CRUSH, VARIABLES
 from pierimpact.units import printed
 
 EXPLORERS = ("collision", "pier", "reduction", "spectra", "design", "sensitivity", "full")
@@ -104,11 +105,11 @@ def test_a_mechanism_is_refused_in_a_sentence_and_taken_back(full):
 @pytest.mark.parametrize(
     ("typed", "said"),
     [
-        ("fast", "Speed V must be a speed"),
+        ("fast", "Speed at first touch must be a speed"),
         ("80 kN", "which is a force"),
         ("-3 km/h", "must be positive"),
         ("nan", "must be finite"),
-        ("", "Speed V must be a speed"),
+        ("", "Speed at first touch must be a speed"),
         ("1e999 km/h", "must be finite"),
     ],
 )

@@ -1,6 +1,6 @@
 """The validation notebook's blocks: the design procedure against the full model."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -30,7 +30,6 @@ from pierimpact.design.study import (
 from pierimpact.pier.equivalent import damping_coefficient, stiffness_at_frequency
 from pierimpact.plots import validation as spectrum_figures
 from pierimpact.report.document.blocks import Block
-from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Column, Figure, Table
 from pierimpact.symbols import SYMBOLS
 from pierimpact.vehicle.crush import CrushSpring
@@ -38,11 +37,12 @@ from pierimpact.vehicle.truck import Truck
 
 Array = NDArray[np.float64]
 
-_FEW = 2000  # so many cases tell enough about one truck or one way out of the domain
-_COLUMNS = ("cases", "mean", "coefficient of variation", "1st percentile", "smallest", "largest")
+_FEW = 2000  # cases are enough for one truck or one way out of the domain
+_RATIOS = ("mean", "coefficient of variation", "1st percentile", "smallest", "largest")
+_ERRORS = ("mean", "standard deviation", "smallest", "largest")
 
-#: A truck quite unlike the reference: its parameters are round numbers, to see what the formulas
-#: do with them, and describe no truck that was tested.
+#: A truck quite unlike the reference, to see how the formulas do with it: its parameters are round
+#: numbers, and those of no truck that was tested.
 TRACTOR_TRAILER = Truck(
     name="tractor-trailer-36t",
     engine_mass=1200.0,
@@ -81,21 +81,12 @@ class Validation:
     def _exact(self) -> Reactions:
         return full_model(self._case)
 
-    @cached_property
-    def _predicted(self) -> dict[str, Reactions]:
-        return {level: predictions(self._case, level) for level in LEVELS}
-
     def domain_table(self) -> Block:
-        """Return what was varied, and from where to where."""
+        """Return the studied values with their limits."""
         return Table(
             label="tab-domain",
             caption="The studied domain: random values between these limits.",
-            columns=[
-                Column(heading="Value", wide=True),
-                Column(heading="From", align="decimal"),
-                Column(heading="To", align="decimal"),
-                Column(heading="Unit"),
-            ],
+            columns=[*_columns("Value", "From", "To"), Column(heading="Unit")],
             rows=[
                 [SYMBOLS[name].heading, f"{low:g}", f"{high:g}", unit]
                 for name, (low, high, unit, _) in domain.DOMAIN.items()
@@ -104,112 +95,94 @@ class Validation:
 
     def scatter(self, level: str) -> Block:
         """Return the predicted reactions against those of the full model."""
-        ratios = self._governing(level)
+        frequency, predicted, accuracy = self._predicted(level)
         return Figure(
             label=f"fig-scatter-{level}",
             caption=f"Predicted reactions ({level} level) against those of the full model. "
             "Dotted lines: 10 % more and less.",
             alt=f"Scatter plot of {self.size} collisions on three panels, engine, cargo and "
-            f"governing. {_in_words(ratios)}",
-            svg=spectrum_figures.draw_scatter(
-                domain.values(self._case)["fp"],
-                self._exact,
-                self._predicted[level],
-                "SI",
-            ),
+            f"governing. {accuracy}",
+            svg=spectrum_figures.draw_scatter(frequency, self._exact, predicted, "SI"),
         )
 
     def ratios(self, level: str) -> Block:
         """Return predicted over full-model reactions against the pier's frequency."""
+        frequency, predicted, accuracy = self._predicted(level)
         return Figure(
             label=f"fig-ratios-{level}",
             caption=f"Predicted ({level} level) over full-model reaction against pier frequency.",
             alt="Ratio against pier frequency on three panels, engine, cargo and governing. "
-            + _in_words(self._governing(level)),
-            svg=spectrum_figures.draw_ratios(
-                domain.values(self._case)["fp"], self._exact, self._predicted[level]
-            ),
+            f"{accuracy}",
+            svg=spectrum_figures.draw_ratios(frequency, self._exact, predicted),
         )
 
-    def _governing(self, level: str) -> Summary:
-        return summary(self._predicted[level].governing / self._exact.governing)
+    def _predicted(self, level: str) -> tuple[Array, Reactions, str]:
+        """Return pier frequencies [Hz], predicted reactions, and in words how good these are."""
+        predicted = predictions(self._case, level)
+        ratios = summary(predicted.governing / self._exact.governing)
+        words = (
+            f"The governing reaction is predicted {ratios['mean']:.3f} times as large on average, "
+            f"with a coefficient of variation of {ratios['coefficient of variation']:.3f}."
+        )
+        return domain.values(self._case)["fp"], predicted, words
 
     def bands(self, level: str, which: str) -> Block:
         """Return the statistics by frequency band.
 
         Parameters
         ----------
-        level : {"refined", "hand"}
-            Level of the formulas.
+        level : {"short", "long"}
+            Level of the procedure.
         which : {"engine", "cargo", "governing"}
             Which reaction.
         """
-        found = assessment(self._case, self._exact, self._predicted[level])[which]
-        return _table(
+        found = assessment(self._case, self._exact, predictions(self._case, level))[which]
+        return _statistics(
             f"tab-{level}-{which}",
             f"Predicted over full-model reaction: {which}, {level} level.",
             "Pier frequency",
-            found.items(),
+            found,
         )
 
     def spectrum(self) -> Block:
         """Return how near the closed spectrum is to the exact one, over the domain."""
         arguments = spectrum_arguments(self._case)
         ratios = amplification(*arguments) / exact_amplification(*arguments)
-        return _table(
+        engine, cargo = summary(ratios[: self.size]), summary(ratios[self.size :])
+        return _statistics(
             "tab-spectrum",
             "Closed over exact amplification.",
             "Body",
-            (
-                ("Engine", summary(ratios[: self.size])),
-                ("Cargo", summary(ratios[self.size :])),
-            ),
+            {"Engine": engine, "Cargo": cargo},
         )
 
-    def approach_speeds(self) -> Block:
+    def contact_speeds(self) -> Block:
         """Return how far the speeds at contact are off."""
         found = speed_errors(select(self._case, slice(0, FOLLOWED)))
-        rows: list[list[Inline]] = [
-            [
-                f"{body.capitalize()}, {level}",
-                str(int(errors["cases"])),
-                *(
-                    f"{100.0 * errors[name]:.2f}".replace("-", "−")
-                    for name in ("mean", "standard deviation", "smallest", "largest")
-                ),
-            ]
-            for level, bodies in found.items()
-            for body, errors in bodies.items()
-        ]
-        return Table(
-            label="tab-speeds",
-            caption="Approach speed less the speed at contact by the full model, in per cent of "
-            "the truck’s speed.",
-            columns=[
-                Column(heading="Body and level", wide=True),
-                Column(heading="Cases", align="decimal"),
-                Column(heading="Mean", align="decimal"),
-                Column(heading="Standard deviation", align="decimal"),
-                Column(heading="Smallest", align="decimal"),
-                Column(heading="Largest", align="decimal"),
-            ],
-            rows=rows,
+        return _statistics(
+            "tab-speeds",
+            "Contact speed of the formulas less that of the full model, in per cent of the "
+            "truck’s speed.",
+            "Body and level",
+            {
+                f"{body.capitalize()}, {level}": errors
+                for level, bodies in found.items()
+                for body, errors in bodies.items()
+            },
+            _ERRORS,
+            scale=100.0,
+            decimals=2,
         )
 
     def trucks(self, trucks: Sequence[Truck]) -> Block:
         """Return the statistics of the governing reaction for other trucks, on the same piers."""
         few = select(self._case, slice(0, _FEW))
-        return _table(
+        return _both_levels(
             "tab-trucks",
             "Predicted over full-model governing reaction: one truck on the piers of the domain, "
             "at its speeds.",
             "Truck and level",
-            _both_levels(
-                {
-                    f"{truck.name}, {truck.mass / 1e3:g} t": with_truck(few, truck)
-                    for truck in trucks
-                }
-            ),
+            {f"{truck.name}, {truck.mass / 1e3:g} t": with_truck(few, truck) for truck in trucks},
         )
 
     def beyond(self) -> Block:
@@ -223,29 +196,19 @@ class Validation:
         def between(low: float, high: float) -> Array:
             return random.uniform(low, high, size)
 
-        return _table(
+        return _both_levels(
             "tab-beyond",
             "Predicted over full-model governing reaction where one thing leaves the domain.",
             "What leaves it, and level",
-            _both_levels(
-                {
-                    "Pier frequency 3–5 Hz": _pier(few, between(3.0, 5.0), damping),
-                    "Damping 0–2 %": _pier(few, frequency, between(0.0, 0.02)),
-                    "Damping 7–20 %": _pier(few, frequency, between(0.07, 0.2)),
-                    "Speed 30–50 km/h": few._replace(speed=between(30.0, 50.0) / 3.6),
-                    "Speed 110–160 km/h": few._replace(speed=between(110.0, 160.0) / 3.6),
-                    "Cargo four times as near": few._replace(body=quarter),
-                }
-            ),
+            {
+                "Pier frequency 3–5 Hz": _pier(few, between(3.0, 5.0), damping),
+                "Damping 0–2 %": _pier(few, frequency, between(0.0, 0.02)),
+                "Damping 7–20 %": _pier(few, frequency, between(0.07, 0.2)),
+                "Speed 30–50 km/h": few._replace(speed=between(30.0, 50.0) / 3.6),
+                "Speed 110–160 km/h": few._replace(speed=between(110.0, 160.0) / 3.6),
+                "Cargo four times as near": few._replace(body=quarter),
+            },
         )
-
-
-def _both_levels(cases: dict[str, Parameters]) -> Iterator[tuple[str, Summary]]:
-    for name, case in cases.items():
-        exact = full_model(case)
-        for level in LEVELS:
-            ratios = predictions(case, level).governing / exact.governing
-            yield f"{name}, {level}", summary(ratios)
 
 
 def _pier(case: Parameters, frequency: Array, damping_ratio: Array) -> Parameters:
@@ -269,7 +232,8 @@ def unified_spectrum(mass_ratios: Sequence[float], restitution: float, damping: 
 def routes(truck: Truck, speed: float, pier_mass: float) -> Block:
     """Return engine and cargo reaction of a truck against pier frequency, by three routes."""
     engine, cargo = (
-        spectrum(truck, speed, pier_mass) for spectrum in (engine_spectrum, cargo_spectrum)
+        spectrum(truck, speed, pier_mass, level="long")
+        for spectrum in (engine_spectrum, cargo_spectrum)
     )
     highest = [
         f"{name} {np.nanmax(spectrum.full_model) / 1e6:.2f} MN"
@@ -286,30 +250,48 @@ def routes(truck: Truck, speed: float, pier_mass: float) -> Block:
     )
 
 
-def _in_words(ratios: Summary) -> str:
-    return (
-        f"The governing reaction is predicted {ratios['mean']:.3f} times as large on average, "
-        f"with a coefficient of variation of {ratios['coefficient of variation']:.3f}."
-    )
+def _columns(first: str, *others: str) -> list[Column]:
+    numbers = [Column(heading=name, align="decimal") for name in others]
+    return [Column(heading=first, wide=True), *numbers]
 
 
-def _table(label: str, caption: str, heading: str, rows: Iterable[tuple[str, Summary]]) -> Block:
-    rows = list(rows)
-    headings = [name[0].upper() + name[1:] for name in _COLUMNS]
+def _both_levels(label: str, caption: str, heading: str, cases: dict[str, Parameters]) -> Table:
+    """Return the ratios of the governing reaction for both levels."""
+    exact = {name: full_model(case).governing for name, case in cases.items()}
+    ratios = {
+        f"{name}, {level}": summary(predictions(case, level).governing / exact[name])
+        for name, case in cases.items()
+        for level in LEVELS
+    }
+    return _statistics(label, caption, heading, ratios)
+
+
+def _statistics(
+    label: str,
+    caption: str,
+    heading: str,
+    found: Mapping[str, Summary],
+    names: Sequence[str] = _RATIOS,
+    *,
+    scale: float = 1.0,
+    decimals: int = 3,
+) -> Table:
+    """Return a table of the number of cases and the named statistics of each row."""
+    rows = {"All" if name == "all" else name: row for name, row in found.items()}
     return Table(
         label=label,
         caption=caption,
-        columns=[
-            Column(heading=heading, wide=True),
-            *(Column(heading=name, align="decimal") for name in headings),
-        ],
+        columns=_columns(heading, "Cases", *(name[0].upper() + name[1:] for name in names)),
         rows=[
             [
-                "All" if name == "all" else name,
-                str(found["cases"]),
-                *(f"{found[column]:.3f}" if found["cases"] else "–" for column in _COLUMNS[1:]),
+                name,
+                str(row["cases"]),
+                *(
+                    f"{scale * row[of]:.{decimals}f}".replace("-", "−") if row["cases"] else "–"
+                    for of in names
+                ),
             ]
-            for name, found in rows
+            for name, row in rows.items()
         ],
-        strong=[index for index, (name, _) in enumerate(rows) if name == "all"],
+        strong=[index for index, name in enumerate(rows) if name == "All"],
     )

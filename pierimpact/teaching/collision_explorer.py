@@ -106,9 +106,9 @@ class CollisionExplorer(Explorer):
             "forces": ((history,), (frame.time, frame.reaction)),
             "energy": ((history,), (frame.time,)),
         }
-        curves = scenario.curves if "engine" in self.views else None
-        for body, peak in (("engine", history.engine_peak), ("cargo", history.cargo_peak)):
-            if curves is not None:
+        if "engine" in self.views:
+            curves = scenario.curves
+            for body, peak in scenario.peaks.items():
                 spectrum = curves.frequency, curves.full[body], curves.reduced[body]
                 reaction = None if peak is None else peak.reaction
                 contents[body] = (spectrum, (*spectrum, scenario.pier.frequency, reaction))
@@ -144,16 +144,13 @@ class CollisionExplorer(Explorer):
 
     def _stills(self, words: str) -> str:
         """Return the views as HTML, with a picture at either peak."""
-        history, pictures = self.animation.scenario.history, ""
-        peaks = {"cargo": history.cargo_peak, "engine": history.engine_peak}
-        for body, peak in peaks.items():  # the engine's comes last, and stays on show
+        pictures = ""
+        for body, peak in reversed(self.animation.scenario.peaks.items()):
             if peak is not None:
-                self.show(peak.time)
+                self.show(peak.time)  # the engine's at last, which stays on show
                 self.redraw()
-                pictures = (
-                    self._picture.still(f"At the {body} peak. {words}", "max(40%, 320px)")
-                    + pictures
-                )
+                still = self._picture.still(f"At the {body} peak. {words}", "max(40%, 320px)")
+                pictures = still + pictures
         others = ("readout", *self._charts)
         return pictures + "".join(self.views[name].still(words) for name in others)
 

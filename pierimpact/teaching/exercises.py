@@ -1,16 +1,14 @@
 """Exercises that check themselves, and the score of a notebook."""
 
 import html
-import re
 from dataclasses import dataclass, field
 
 import ipywidgets as ipw
-from IPython.display import display
 
 from pierimpact.checks import InputError, one_of
-from pierimpact.plots.style import GREEN, INK, MUTED, ORANGE
+from pierimpact.plots.style import GREEN, MUTED, ORANGE
 from pierimpact.teaching.checker import Question, Verdict, check
-from pierimpact.teaching.explorer import LIVE, STILL, STYLE
+from pierimpact.teaching.markup import indexed, paragraph, show, still
 from pierimpact.teaching.questions import QUESTIONS
 from pierimpact.units import DIMENSIONS
 
@@ -84,7 +82,6 @@ class Exercise:
             [ipw.HTML(self._asked()), ipw.HBox([self.box, button]), self.feedback],
             layout=ipw.Layout(border_left=f"3px solid {MUTED}", padding="2px 0 4px 12px"),
         )
-        self.widget.add_class(LIVE)
 
     def answer(self, *_: object) -> Verdict:
         """Check what stands in the box, say so and keep the score."""
@@ -98,49 +95,27 @@ class Exercise:
                 score.solved.add(self.number)
         colour = GREEN if verdict.right else ORANGE
         sign = {True: "✓", False: "✗", None: "…"}[verdict.right]
-        self.feedback.value = (
-            f'<div role="status" style="color:{INK};line-height:1.4">'
-            f'<b style="color:{colour}">{sign}</b> {html.escape(verdict.words)}</div>'
-        )
+        words = f'<b style="color:{colour}">{sign}</b> {html.escape(verdict.words)}'
+        self.feedback.value = paragraph(words, role="status")
         for board in score.boards:
             board.value = _summary(self.topic)
         return verdict
 
     def _asked(self) -> str:
-        return (
-            f'<div style="color:{INK};line-height:1.45;max-width:780px"><b>Exercise '
-            f"{self.number}.</b> {_indexed(self.question.words)}</div>"
-        )
+        words = f"<b>Exercise {self.number}.</b> {indexed(self.question.words)}"
+        return paragraph(words, "max-width:780px")
 
     def _ipython_display_(self) -> None:
         choices = "".join(f"<li>{html.escape(words)}</li>" for words in self.question.choices)
-        _show(self.widget, f"{self._asked()}{f'<ul>{choices}</ul>' if choices else ''}")
-
-
-def _indexed(words: str) -> str:
-    """Return text as HTML, with symbols such as f_p written with an index."""
-    return re.sub(r"\b(\w)_(\w+)\b", r"<i>\1</i><sub>\2</sub>", html.escape(words))
+        note = f'<div style="color:{MUTED}">To be answered in the live notebook.</div>'
+        show(self.widget, still(f"{self._asked()}{choices and f'<ul>{choices}</ul>'}{note}"))
 
 
 def score(topic: str) -> None:
     """Show how many exercises of a topic are solved; it follows what is answered above."""
     board = ipw.HTML(_summary(topic))
-    board.add_class(LIVE)
     _SCORES.setdefault(topic, _Score()).boards.append(board)
-    _show(board, "")
-
-
-def _show(widget: ipw.Widget, still: str) -> None:
-    display(widget)  # type: ignore[no-untyped-call]
-    note = f'<div style="color:{MUTED}">To be answered in the live notebook.</div>'
-    display(  # type: ignore[no-untyped-call]
-        {
-            "text/html": f'{STYLE}<div class="{STILL}" style="margin:0.7em 0">'
-            f"{still and still + note}</div>",
-            "text/plain": "",
-        },
-        raw=True,
-    )
+    show(board, still(""))
 
 
 def _summary(topic: str) -> str:
@@ -155,7 +130,4 @@ def _summary(topic: str) -> str:
         )  # fmt: skip
         mark = "●" if number in state.solved else "○"
         rows += f'<div><span style="color:{GREEN}">{mark}</span> Exercise {number}: {words}</div>'
-    return (
-        f'<div style="line-height:1.5;color:{INK}"><b>{len(state.solved)} of '
-        f"{len(QUESTIONS[topic])} solved</b>{rows}</div>"
-    )
+    return paragraph(f"<b>{len(state.solved)} of {len(QUESTIONS[topic])} solved</b>{rows}")

@@ -1,21 +1,21 @@
-"""The machinery of an explorer: controls with units, views that follow them, a still for print."""
+"""An explorer: controls with units, views that follow them, and a still for print."""
 
 import asyncio
 import html
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from typing import Any
 
 import ipywidgets as ipw
-from IPython.display import display
 
 from pierimpact.checks import InputError
 from pierimpact.plots.style import MUTED
+from pierimpact.teaching.control import Control
 from pierimpact.teaching.live import LiveFigure, LiveWords
-from pierimpact.teaching.readouts import refusal
+from pierimpact.teaching.markup import refusal, show, still
 from pierimpact.teaching.scenario import Scenario
-from pierimpact.teaching.variables import VARIABLES, Variable, case_text, truck_text
+from pierimpact.teaching.scenario_files import case_text, truck_text
+from pierimpact.teaching.variables import VARIABLES
 
 #: Pause before a redraw, in which the values of a drag that have already arrived are taken in [s].
 PAUSE = 0.01
@@ -23,133 +23,13 @@ PAUSE = 0.01
 #: Size of a figure that takes half the room beside the controls [px].
 HALF = (440.0, 236.0)
 
-# Live widgets and their still stand side by side in a notebook's output; one of them shows. In
-# JupyterLab and Voilà that is the widgets. In a page exported from the notebook, where they would
-# be dead, it is the still.
-LIVE, STILL = "pierimpact-live", "pierimpact-still"
-STYLE = (
-    f"<style>.jp-NotebookPanel .{STILL}, body[data-voila] .{STILL} {{display:none}} "
-    f"body.jp-Notebook:not([data-voila]) .{LIVE} {{display:none}}</style>"
-)
-HOW_TO_GET_LIVE = (
+_HOW_TO_GET_LIVE = (
     "This is a still. To make it live, install with "
     "<code>pip install 'pierimpact[teach]'</code> and run <code>pierimpact teach</code>."
 )
 
 Views = Mapping[str, LiveFigure | LiveWords]
 Contents = Mapping[str, tuple[Any, ...]]
-
-
-class Control:
-    """One variable's slider with a box to type in, or its list of choices.
-
-    The box takes any unit of the right kind. What it says counts, even where the slider ends.
-
-    Parameters
-    ----------
-    variable : Variable
-        What it sets.
-    value : float or str
-        Its value to begin with, in SI units.
-    changed : callable
-        Called after every change.
-    """
-
-    def __init__(self, variable: Variable, value: float | str, changed: Callable[[], None]) -> None:
-        self.variable = variable
-        self._value: float | str | InputError = value
-        self._changed = changed
-        self._busy = False
-        name = ipw.HTML(_label(variable.label), layout=ipw.Layout(height="22px", margin="0"))
-        if variable.choices:
-            self.choice = ipw.Dropdown(
-                options=variable.choices, value=value, layout=ipw.Layout(width="110px")
-            )
-            self.choice.observe(self._chosen, "value")
-            name.layout.width = "150px"
-            self.widget: ipw.Widget = ipw.HBox([name, self.choice])
-            return
-        common = {"readout": False, "layout": ipw.Layout(flex="1 1 auto", width="auto")}
-        shown = float(value) / variable.size
-        if variable.log:
-            low, high = math.log10(variable.low), math.log10(variable.high)
-            self.slider = ipw.FloatLogSlider(
-                value=shown, min=low, max=high, step=variable.step, **common
-            )
-        else:
-            self.slider = ipw.FloatSlider(
-                value=shown, min=variable.low, max=variable.high, step=variable.step, **common
-            )
-        self.box = ipw.Text(
-            value=variable.shown(float(value)),
-            continuous_update=False,
-            layout=ipw.Layout(width="96px"),
-        )
-        self.slider.observe(self._slid, "value")
-        self.box.observe(self._typed, "value")
-        self.widget = ipw.VBox(
-            [name, ipw.HBox([self.slider, self.box])], layout=ipw.Layout(margin="0 0 2px 0")
-        )
-
-    @property
-    def value(self) -> float | str:
-        """The value in SI units, or the choice.
-
-        Raises
-        ------
-        InputError
-            When what was typed is no such value.
-        """
-        if isinstance(self._value, InputError):
-            raise self._value
-        return self._value
-
-    def set(self, value: float | str) -> None:
-        """Set the value, and show it."""
-        self._value = value
-        self._busy = True
-        try:
-            if self.variable.choices:
-                self.choice.value = value
-            else:
-                self.box.value = self.variable.shown(float(value))
-                self._move_slider(float(value))
-        finally:
-            self._busy = False
-        self._changed()
-
-    def _chosen(self, change: Mapping[str, Any]) -> None:
-        if not self._busy:
-            self.set(change["new"])
-
-    def _slid(self, change: Mapping[str, Any]) -> None:
-        if not self._busy and not self._snapped(change["new"]):
-            self.set(change["new"] * self.variable.size)
-
-    def _snapped(self, shown: float) -> bool:
-        """Return whether a slider only moved to its nearest step, which JupyterLab makes it do."""
-        if isinstance(self._value, InputError):
-            return False
-        value, step = float(self._value) / self.variable.size, 0.5001 * self.variable.step
-        if self.variable.log:
-            return abs(math.log10(shown / value)) < step
-        return abs(shown - value) < step
-
-    def _typed(self, change: Mapping[str, Any]) -> None:
-        if self._busy:
-            return
-        try:
-            self.set(self.variable.parsed(change["new"]))
-        except InputError as error:
-            self._value = error
-            self._changed()
-
-    def _move_slider(self, value: float) -> None:
-        variable = self.variable
-        shown = min(max(value / variable.size, variable.low), variable.high)
-        # A slider that snapped to its step would otherwise say so, and lose what was typed.
-        if abs(self.slider.value - shown) > 1e-9 * abs(shown):
-            self.slider.value = shown
 
 
 class Explorer:
@@ -197,7 +77,6 @@ class Explorer:
         self.message = ipw.HTML()
         self._body = self._arranged()
         self.widget = self._assemble(controls, hidden or [])
-        self.widget.add_class(LIVE)
         self.redraw()
         self._still = self._stills(words(self.defaults))
 
@@ -317,15 +196,14 @@ class Explorer:
     @property
     def still(self) -> str:
         """The views at the default values, as HTML that needs nothing else."""
-        return (
-            f'{STYLE}<figure class="{STILL}" style="margin:0;max-width:900px"><div '
+        return still(
+            '<figure style="margin:0;max-width:900px"><div '
             f'style="display:flex;flex-wrap:wrap;gap:4px 8px">{self._still}</div>'
-            f"<figcaption>{html.escape(self.title)}. {HOW_TO_GET_LIVE}</figcaption></figure>"
+            f"<figcaption>{html.escape(self.title)}. {_HOW_TO_GET_LIVE}</figcaption></figure>"
         )
 
     def _ipython_display_(self) -> None:
-        display(self.widget)  # type: ignore[no-untyped-call]
-        display({"text/html": self.still, "text/plain": self.title}, raw=True)  # type: ignore[no-untyped-call]
+        show(self.widget, self.still, self.title)
 
 
 def side_by_side(widgets: list[ipw.Widget]) -> ipw.Widget:
@@ -333,9 +211,3 @@ def side_by_side(widgets: list[ipw.Widget]) -> ipw.Widget:
     return ipw.Box(
         widgets, layout=ipw.Layout(display="flex", flex_flow="row wrap", grid_gap="4px 8px")
     )
-
-
-def _label(words: str) -> str:
-    head, mark, index = words.partition("_")
-    shown = html.escape(head) + (f"<sub>{index[0]}</sub>{html.escape(index[1:])}" if mark else "")
-    return f'<span style="font-size:12.5px">{shown}</span>'

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.checks import InputError
-from pierimpact.collision.history import CollisionHistory
+from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.collision.simulate import peak_reactions, simulate
 from pierimpact.design.procedure import design_values
@@ -219,7 +219,12 @@ class Scenario:
             history = simulate(self.truck, self.pier, self.speed, end)
         return _until(history, end)
 
-    def design(self, level: str = "refined") -> DesignReaction:
+    @property
+    def peaks(self) -> dict[str, Peak | None]:
+        """The engine and the cargo peak of the collision."""
+        return {"engine": self.history.engine_peak, "cargo": self.history.cargo_peak}
+
+    def design(self, level: str = "long") -> DesignReaction:
         """Return the design reaction of the collision."""
         return design_reaction(self.truck, self.pier, self.speed, level)
 

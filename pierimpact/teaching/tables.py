@@ -1,15 +1,16 @@
-"""Tables of the teaching notebooks: where numbers come from, and how good the formulas are."""
+"""Tables of the teaching notebooks: sources of the numbers, accuracy of the formulas."""
 
-import html
 import json
-from collections.abc import Sequence
 
 from IPython.display import HTML
 
 from pierimpact.design.codes import code_forces
 from pierimpact.design.study import OUTCOME_FILE
 from pierimpact.files.trucks import read_truck_file
+from pierimpact.symbols import BY_KEY
+from pierimpact.teaching.markup import table
 from pierimpact.teaching.scenario import REFERENCE
+from pierimpact.teaching.variables import capitalized
 from pierimpact.units import printed
 
 
@@ -17,14 +18,14 @@ def truck_parameters(name: str = REFERENCE.name) -> HTML:
     """Return a truck's parameters, each with its status and source."""
     file = read_truck_file(name)
     rows = [
-        (entry.name.replace("_", " ").replace(".", ": "), entry.given, entry.status, entry.source)
+        (capitalized(BY_KEY[entry.name].meaning), entry.given, entry.status, entry.source)
         for entry in file.parameters
     ]
-    return _table(("Parameter", "Value", "Status", "Source"), rows, right=(1,))
+    return HTML(table(("Parameter", "Value", "Status", "Source"), rows, right=(1,)))  # type: ignore[no-untyped-call]
 
 
 def code_values(speed: float = 80.0 / 3.6, mass: float = REFERENCE.mass) -> HTML:
-    """Return what codes say, each value with how sure it is.
+    """Return the impact forces of design codes, each with its status.
 
     Parameters
     ----------
@@ -40,45 +41,25 @@ def code_values(speed: float = 80.0 / 3.6, mass: float = REFERENCE.mass) -> HTML
                 height += f" ({code.height.remark})"
         force = printed(code.along.value, "force", "SI")
         rows.append((code.code, code.clause, str(force), code.along.remark, height, code.note))
-    heads = ("Code", "Clause", "Force along", "How sure", "Height", "Note")
-    return _table(heads, rows, right=(2,))
+    heads = ("Code", "Clause", "Force along", "Status", "Height", "Note")
+    return HTML(table(heads, rows, right=(2,)))  # type: ignore[no-untyped-call]
 
 
 def accuracy() -> HTML:
     """Return how the design procedure compares with the full model in the parametric study."""
     outcome = json.loads(OUTCOME_FILE.read_text(encoding="utf-8"))
-    rows = []
-    for level, reactions in outcome["predicted over CMSD"].items():
-        for reaction, bands in reactions.items():
-            found = bands["all"]
-            rows.append(
-                (
-                    level,
-                    reaction,
-                    f"{found['cases']}",
-                    f"{found['mean']:.2f}",
-                    f"{found['coefficient of variation']:.1%}",
-                    f"{found['1st percentile']:.2f}",
-                    f"{found['99th percentile']:.2f}",
-                )
-            )
+    formats = {
+        "cases": "d",
+        "mean": ".2f",
+        "coefficient of variation": ".1%",
+        "1st percentile": ".2f",
+        "99th percentile": ".2f",
+    }
+    rows = [
+        (level, reaction, *(format(bands["all"][name], form) for name, form in formats.items()))
+        for level, reactions in outcome["predicted over CMSD"].items()
+        for reaction, bands in reactions.items()
+    ]
     heads = ("Level", "Reaction", "Collisions", "Mean", "c.o.v.", "1st percentile",
              "99th percentile")  # fmt: skip
-    return _table(heads, rows, right=(2, 3, 4, 5, 6))
-
-
-def _table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> HTML:
-    def cells(kind: str, values: Sequence[str]) -> str:
-        styles = (
-            "text-align:right;white-space:nowrap" if n in right else "text-align:left"
-            for n in range(len(values))
-        )
-        return "".join(
-            f'<{kind} style="{style};padding:3px 12px 3px 0;vertical-align:top">'
-            f"{html.escape(value)}</{kind}>"
-            for style, value in zip(styles, values, strict=True)
-        )
-
-    body = "".join(f"<tr>{cells('td', row)}</tr>" for row in rows)
-    content = f"<table><thead><tr>{cells('th', heads)}</tr></thead><tbody>{body}</tbody></table>"
-    return HTML(content)  # type: ignore[no-untyped-call]
+    return HTML(table(heads, rows, right=(2, 3, 4, 5, 6)))  # type: ignore[no-untyped-call]

@@ -4,12 +4,13 @@ from functools import partial
 
 from pierimpact.plots import amplification, comparison, influence, shape
 from pierimpact.plots.style import BODIES
-from pierimpact.teaching import readouts, theory
+from pierimpact.symbols import Symbol
+from pierimpact.teaching import explorer_data, readouts
 from pierimpact.teaching.collision_explorer import CollisionExplorer
 from pierimpact.teaching.explorer import HALF, Contents, Explorer
 from pierimpact.teaching.live import LiveFigure, LiveWords
 from pierimpact.teaching.scenario import EXAMPLE, Scenario
-from pierimpact.teaching.variables import CRUSH
+from pierimpact.teaching.variables import CRUSH, capitalized
 
 _COLUMN = ["column_diameter", "column_height", "base", "top", "damping_ratio"]
 _PIER = ["pier_frequency", "pier_mass", "damping_ratio"]
@@ -28,7 +29,7 @@ def collision() -> Explorer:
 def full() -> Explorer:
     """Explore everything at once: collision, forces, energy and spectra."""
     return CollisionExplorer(
-        title="A collision, its forces and energy, and its place on the spectra",
+        title="A collision, its forces and energy, and its position on the spectra",
         controls=["speed", "truck_mass", *_COLUMN, "impact_height"],
         hidden=list(CRUSH),
         spectra=True,
@@ -38,7 +39,7 @@ def full() -> Explorer:
 def spectra() -> Explorer:
     """Explore how both peaks depend on the pier's frequency, set directly."""
     return CollisionExplorer(
-        title="A collision and its place on the spectra of engine and cargo",
+        title="A collision and its position on the spectra of engine and cargo",
         controls=[*_PIER, "speed", "truck_mass"],
         spectra=True,
         defaults=EXAMPLE,
@@ -50,7 +51,7 @@ def pier() -> Explorer:
 
     def contents(scenario: Scenario) -> Contents:
         struck = scenario.column.struck_at(scenario.impact_height)
-        along = theory.by_height(scenario.column)
+        along = explorer_data.by_height(scenario.column)
         here = struck.impact_height
         return {
             "readout": (readouts.shape_readout(scenario),),
@@ -87,9 +88,9 @@ def reduction() -> Explorer:
     """Explore the reduction to two degrees of freedom: the amplification of either body."""
 
     def contents(scenario: Scenario) -> Contents:
-        values = theory.by_hand(scenario)
+        values = explorer_data.by_hand(scenario)
         mu, e = ((values[f"{name}1"], values[f"{name}2"]) for name in ("mu", "e"))
-        curves = theory.amplifications(mu, e, scenario.damping_ratio)
+        curves = explorer_data.amplifications(mu, e, scenario.damping_ratio)
         return {"readout": (readouts.amplification_readout(scenario, values),)} | {
             body: ((curves[body],), (curves[body], values[f"beta{i}"], values[f"S{i}"]))
             for i, body in enumerate(BODIES, 1)
@@ -110,7 +111,9 @@ def reduction() -> Explorer:
             for body in BODIES
         },
         draw=contents,
-        words=lambda scenario: readouts.amplification_words(scenario, theory.by_hand(scenario)),
+        words=lambda scenario: readouts.amplification_words(
+            scenario, explorer_data.by_hand(scenario)
+        ),
         defaults=EXAMPLE,
     )
 
@@ -121,10 +124,10 @@ def design() -> Explorer:
     def contents(scenario: Scenario) -> Contents:
         return {
             "readout": (readouts.design_readout(scenario),),
-            "bars": ((theory.bars(scenario),),),
+            "bars": ((explorer_data.bars(scenario),),),
         }
 
-    names = [bar.name for bar in theory.bars(Scenario())]
+    names = [bar.name for bar in explorer_data.bars(Scenario())]
     return Explorer(
         title="Design reaction, full model and code forces",
         controls=["speed", "truck_mass", *_COLUMN, "impact_height"],
@@ -146,7 +149,7 @@ def sensitivity() -> Explorer:
     """Explore which of the truck's parameters matter."""
 
     def contents(scenario: Scenario) -> Contents:
-        changes = theory.influences(scenario)
+        changes = explorer_data.influences(scenario)
         return {"readout": (readouts.influence_readout(scenario, changes),)} | {
             body: ((changes[body],),) for body in BODIES
         }
@@ -162,13 +165,20 @@ def sensitivity() -> Explorer:
                 partial(
                     influence.influence_panel,
                     title=f"{body.capitalize()} peak",
-                    names=theory.PARAMETERS,
-                    change=theory.CHANGE,
+                    names=[_short_name(symbol) for symbol in explorer_data.PARAMETERS],
+                    change=explorer_data.CHANGE,
                 ),
                 partial(influence.draw_influence, body=body),
             )
             for body in BODIES
         },
         draw=contents,
-        words=lambda scenario: readouts.influence_words(theory.influences(scenario)),
+        words=lambda scenario: readouts.influence_words(explorer_data.influences(scenario)),
     )
+
+
+def _short_name(parameter: Symbol) -> str:
+    """Return the name of a truck parameter as a figure has room for it."""
+    words, of, spring = parameter.meaning.partition(" of the ")
+    name = f"{spring.removesuffix(' spring')}: {words}" if of else words
+    return f"{capitalized(name)} ${parameter.latex}$"

@@ -8,7 +8,7 @@ from pierimpact.teaching.scenario import Scenario
 _HEAVY_MASS, _HEAVY_SPEED = 30e3, 90.0 * KMH
 
 
-def _design(level: str = "refined") -> float:
+def _design(level: str = "long") -> float:
     return Scenario(speed=SLOW).design(level).reaction
 
 

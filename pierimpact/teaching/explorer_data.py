@@ -1,4 +1,4 @@
-"""What the explorers of the ideas behind the model show, computed from a scenario."""
+"""The data of the explorers: what they show, computed from one collision."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -15,30 +15,27 @@ from pierimpact.pier.column import PierColumn
 from pierimpact.plots.amplification import Amplification
 from pierimpact.plots.comparison import Bar
 from pierimpact.plots.style import BODIES, GREEN, GREY
+from pierimpact.symbols import BY_KEY
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.vehicle.crush import CrushSpring
+from pierimpact.vehicle.truck import Truck
 
 Array = NDArray[np.float64]
+_SPRING = tuple(CrushSpring.__dataclass_fields__)
 
 #: Frequency ratios of the amplification: those of all piers, for engine and cargo alike [-].
 RATIOS = np.geomspace(0.02, 50.0, 141)
 #: How far each parameter is moved, as in the parametric study [-].
 CHANGE = 0.3
-_SPRING = {
-    "plateau_force": "plateau force $P$",
-    "plateau_length": "plateau length $d$",
-    "stiffness": "steep stiffness $k$",
-    "unloading_stiffness": "unloading stiffness $k_\\mathrm{u}$",
-}
-_REST = {
-    "engine_mass": "Engine mass $m_1$",
-    "body_mass": "Body mass $m_2$",
-    "friction_force": "Friction $c_\\mathrm{s}$",
-}
 #: The parameters whose influence is shown, from above.
-PARAMETERS = (
-    *(f"{body}: {words}" for body in ("Engine", "Body") for words in _SPRING.values()),
-    *_REST.values(),
+PARAMETERS = tuple(
+    BY_KEY[key]
+    for key in (
+        *(f"{spring}.{name}" for spring in ("engine_spring", "body_spring") for name in _SPRING),
+        "engine_mass",
+        "body_mass",
+        "friction_force",
+    )
 )
 
 
@@ -103,16 +100,13 @@ def amplifications(
 
 def bars(scenario: Scenario) -> list[Bar]:
     """Return the forces of full model, design procedure and codes."""
-    history = scenario.history
-    peaks = {"engine": history.engine_peak, "cargo": history.cargo_peak}
     found = [
         Bar(f"Full model, {body}", None if peak is None else peak.reaction, BODIES[body], "")
-        for body, peak in peaks.items()
+        for body, peak in scenario.peaks.items()
     ]
     for level in LEVELS:
         reaction = scenario.design(level).reaction
-        ratio = reaction / history.governing_peak.reaction
-        remark = f"{ratio:.2f} of the full model"
+        remark = f"{reaction / scenario.history.governing_peak.reaction:.2f} × full model"
         found.append(Bar(f"Design procedure, {level}", reaction, GREEN, remark))
     for code in code_forces(scenario.speed, scenario.truck.mass):
         found.append(Bar(code.code, code.along.value, GREY, code.along.remark))
@@ -128,35 +122,30 @@ def influences(scenario: Scenario) -> dict[str, Array | None]:
         For "engine" and "cargo": the change with the parameter smaller and larger, nan where the
         peak is gone [-]; None where there is no such peak to begin with.
     """
-    truck = scenario.truck
     factors = (1.0 - CHANGE, 1.0 + CHANGE)
     trucks = [
-        replace(truck, **{spring: _changed(getattr(truck, spring), name, factor)})  # type: ignore[arg-type]
-        for spring in ("engine_spring", "body_spring")
-        for name in _SPRING
+        _changed(scenario.truck, parameter.key, factor)
+        for parameter in PARAMETERS
         for factor in factors
     ]
-    trucks += [
-        replace(truck, **{name: factor * getattr(truck, name)})
-        for name in _REST
-        for factor in factors
-    ]
-    pier, history = scenario.pier, scenario.history
-    peaks = peak_reactions(trucks, pier.mass, pier.stiffness, pier.damping_ratio, scenario.speed)
-    before = {"engine": history.engine_peak, "cargo": history.cargo_peak}
+    pier = scenario.pier
+    changed = peak_reactions(trucks, pier.mass, pier.stiffness, pier.damping_ratio, scenario.speed)
     return {
-        body: None if peak is None else getattr(peaks, body).reshape(-1, 2) / peak.reaction - 1.0
-        for body, peak in before.items()
+        body: None if peak is None else getattr(changed, body).reshape(-1, 2) / peak.reaction - 1.0
+        for body, peak in scenario.peaks.items()
     }
 
 
-def _changed(spring: CrushSpring, name: str, factor: float) -> CrushSpring:
-    """Return the spring with one value changed, and k_u raised where it would be below k."""
-    values = {field: getattr(spring, field) for field in CrushSpring.__dataclass_fields__}
+def _changed(truck: Truck, key: str, factor: float) -> Truck:
+    """Return the truck with one value changed, and k_u raised where it would be below k."""
+    spring, _, name = key.rpartition(".")
+    if not spring:
+        return replace(truck, **{name: factor * getattr(truck, name)})
+    values = {field: getattr(getattr(truck, spring), field) for field in _SPRING}
     values[name] *= factor
     values["unloading_stiffness"] = max(
         values["unloading_stiffness"],
         values["stiffness"],
         values["plateau_force"] / values["plateau_length"],
     )
-    return CrushSpring(**values)
+    return replace(truck, **{spring: CrushSpring(**values)})  # type: ignore[arg-type]

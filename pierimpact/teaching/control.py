@@ -1,0 +1,127 @@
+"""A control of an explorer: a slider with a box to type in, or a list of choices."""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import ipywidgets as ipw
+
+from pierimpact.checks import InputError
+from pierimpact.teaching.markup import symbol
+from pierimpact.teaching.variables import Variable
+
+
+class Control:
+    """One variable's slider with a box to type in, or its list of choices.
+
+    The box takes any unit of the right kind. What it says counts, even where the slider ends.
+
+    Parameters
+    ----------
+    variable : Variable
+        What it sets.
+    value : float or str
+        Its value to begin with, in SI units.
+    changed : callable
+        Called after every change.
+    """
+
+    def __init__(self, variable: Variable, value: float | str, changed: Callable[[], None]) -> None:
+        self.variable = variable
+        self._value: float | str | InputError = value
+        self._changed = changed
+        self._busy = False
+        name = ipw.HTML(
+            f'<span style="font-size:12.5px">{variable.label} '
+            f"{symbol(variable.symbol.latex)}</span>",
+            layout=ipw.Layout(height="22px", margin="0"),
+        )
+        if variable.choices:
+            self.choice = ipw.Dropdown(
+                options=variable.choices, value=value, layout=ipw.Layout(width="110px")
+            )
+            self.choice.observe(self._chosen, "value")
+            name.layout.width = "150px"
+            self.widget: ipw.Widget = ipw.HBox([name, self.choice])
+            return
+        common = {"readout": False, "layout": ipw.Layout(flex="1 1 auto", width="auto")}
+        shown = float(value) / variable.size
+        if variable.log:
+            low, high = math.log10(variable.low), math.log10(variable.high)
+            self.slider = ipw.FloatLogSlider(
+                value=shown, min=low, max=high, step=variable.step, **common
+            )
+        else:
+            self.slider = ipw.FloatSlider(
+                value=shown, min=variable.low, max=variable.high, step=variable.step, **common
+            )
+        self.box = ipw.Text(
+            value=variable.shown(float(value)),
+            continuous_update=False,
+            layout=ipw.Layout(width="96px"),
+        )
+        self.slider.observe(self._slid, "value")
+        self.box.observe(self._typed, "value")
+        self.widget = ipw.VBox(
+            [name, ipw.HBox([self.slider, self.box])], layout=ipw.Layout(margin="0 0 2px 0")
+        )
+
+    @property
+    def value(self) -> float | str:
+        """The value in SI units, or the choice.
+
+        Raises
+        ------
+        InputError
+            When what was typed is no such value.
+        """
+        if isinstance(self._value, InputError):
+            raise self._value
+        return self._value
+
+    def set(self, value: float | str) -> None:
+        """Set the value, and show it."""
+        self._value = value
+        self._busy = True
+        try:
+            if self.variable.choices:
+                self.choice.value = value
+            else:
+                self.box.value = self.variable.shown(float(value))
+                self._move_slider(float(value))
+        finally:
+            self._busy = False
+        self._changed()
+
+    def _chosen(self, change: Mapping[str, Any]) -> None:
+        if not self._busy:
+            self.set(change["new"])
+
+    def _slid(self, change: Mapping[str, Any]) -> None:
+        if not self._busy and not self._snapped(change["new"]):
+            self.set(change["new"] * self.variable.size)
+
+    def _snapped(self, shown: float) -> bool:
+        """Return whether a slider only moved to its nearest step, which JupyterLab makes it do."""
+        if isinstance(self._value, InputError):
+            return False
+        value, step = float(self._value) / self.variable.size, 0.5001 * self.variable.step
+        if self.variable.log:
+            return abs(math.log10(shown / value)) < step
+        return abs(shown - value) < step
+
+    def _typed(self, change: Mapping[str, Any]) -> None:
+        if self._busy:
+            return
+        try:
+            self.set(self.variable.parsed(change["new"]))
+        except InputError as error:
+            self._value = error
+            self._changed()
+
+    def _move_slider(self, value: float) -> None:
+        variable = self.variable
+        shown = min(max(value / variable.size, variable.low), variable.high)
+        # A slider that snapped to its step would otherwise say so, and lose what was typed.
+        if abs(self.slider.value - shown) > 1e-9 * abs(shown):
+            self.slider.value = shown
