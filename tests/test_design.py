@@ -308,7 +308,7 @@ def test_no_contact_is_said():
     assert slow.cargo is None
     assert slow.governs == "engine"
     assert slow.reaction == slow.engine
-    # model.md gives 1.203002 MN: the plateaus' step response.
+    # The step response to the plateaus' force.
     step = 650e3 * (1.0 + math.exp(-math.pi * 0.05 / math.sqrt(1.0 - 0.05**2)))
     assert slow.engine == pytest.approx(step, rel=1e-12)
     middle = design_reaction(TRUCK, PIER, 55.0 / 3.6)
