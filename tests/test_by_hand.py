@@ -385,6 +385,11 @@ def test_the_hand_level(calculated):
         values[symbol] = sheet.values[symbol]
         shown, rounding = values[symbol]
         assert abs(found - shown) <= 1.01 * (moved + rounding), symbol
+    checks, unit = calculated.numbers("tab-check"), force_unit(calculated)
+    for name, symbol in (("Engine", "R_1"), ("Cargo", "R_2")):
+        text = checks[name][3]
+        if text != "none":
+            close(values[(symbol,)][0] / unit, text, 1e-4 * values[(symbol,)][0] / unit)
 
 
 def test_member_forces_and_utilisations(calculated):

@@ -11,7 +11,7 @@ from two_degrees import amplification
 from pierimpact import InputError
 from pierimpact.design.reduction import exact_amplification
 
-GENERATED = settings(deadline=None, derandomize=True, max_examples=30)
+GENERATED = settings(max_examples=30)
 
 RATIOS = st.floats(0.05, 10.0)
 MASSES = st.floats(0.01, 3.0)

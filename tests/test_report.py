@@ -191,7 +191,7 @@ def requested_by(page, folder):
         capture_output=True,
         encoding="utf-8",
         check=True,
-        timeout=120,
+        timeout=600,
     )
     assert "Summary" in done.stdout
     events = (event.get("params", {}) for event in json.loads(log.read_text("utf-8"))["events"])
