@@ -98,91 +98,67 @@ def _collision(row):
     return Case(truck, pier, _between(SPEED, next(fractions)))
 
 
-def _written_out(engine, body, friction, pier, speed):
-    """A collision from masses with their springs (m, P, d, k, k_u), friction and pier."""
-    (m1, *spring1), (m2, *spring2), (friction_force, friction_on) = engine, body, friction
-    names = ("plateau_force", "plateau_length", "stiffness", "unloading_stiffness")
+# Speed [m/s], friction force [N] and what it acts on, pier mass [kg], stiffness [N/m] and damping
+# ratio; then mass [kg], P [N], d [m], k and k_u [N/m] of the engine, and of the body.
+# fmt: off
+_HARD = {
+    # The engine opens, meets the pier again and opens, each within a fraction of a period.
+    "engine bounces before the cargo arrives": (
+        13.7663, 0.0, "road", 5278.20, 16975.4e3, 0.00369915,
+        (824.047, 180325.0, 0.578723, 107361e3, 771396e3),
+        (31905.7, 618890.0, 1.80752, 10097.7e3, 28959.5e3)),
+    "engine bounces on a soft pier": (
+        12.5774, 0.0, "road", 2414.39, 4040.59e3, 0.0389281,
+        (744.108, 143292.0, 0.626099, 159809e3, 1413040e3),
+        (32006.2, 353814.0, 1.95652, 8293.24e3, 21431.4e3)),
+    "engine arrives after the cargo": (
+        18.7160, 0.0, "road", 6177.45, 3257.19e3, 0.110244,
+        (578.119, 166945.0, 0.530240, 165902e3, 433370e3),
+        (13397.6, 599785.0, 1.52722, 11797.8e3, 22455.3e3)),
+    "engine bounces and the cargo arrives late": (
+        6.88343, 0.0, "road", 2393.95, 3117.36e3, 0.0652138,
+        (501.733, 181562.0, 0.538148, 185552e3, 1769010e3),
+        (33784.7, 388066.0, 1.90705, 7284.69e3, 15873.1e3)),
+    # The cargo arrives although the pier has swung through a whole period without a change.
+    "cargo arrives on the next swing": (
+        7.41182, 0.0, "road", 66271.9, 13919.2e3, 0.134286,
+        (865.744, 126573.0, 0.504744, 178202e3, 720925e3),
+        (30386.8, 510529.0, 1.58080, 11025.4e3, 55800.0e3)),
+    "cargo arrives on the next swing, with friction": (
+        20.7996, 5306.57, "road", 3529.70, 20320.2e3, 0.128642,
+        (900.599, 149084.0, 0.538772, 190339e3, 1141780e3),
+        (5608.10, 632783.0, 1.87560, 8431.85e3, 76330.6e3)),
+    "cargo arrives after the engine's third contact": (
+        19.2785, 0.0, "road", 2274.05, 2030.70e3, 0.155654,
+        (868.175, 106772.0, 0.536689, 166630e3, 739334e3),
+        (5700.54, 586508.0, 1.61270, 10010.4e3, 20947.6e3)),
+    # The body sticks to the pier and slips off backwards where its acceleration is still zero.
+    "body sticks to the pier and slips": (
+        13.1611, 33524.4, "pier", 2023.31, 520.020e3, 0.0131524,
+        (665.413, 124341.0, 0.440150, 177214e3, 1343030e3),
+        (6021.65, 372681.0, 1.38459, 9477.12e3, 92949.0e3)),
+    # The engine turns 0.2 mm after its contact.
+    "engine hardly arrives": (
+        18.1026, 4889.30, "road", 50476.6, 26964.5e3, 0.0772216,
+        (679.420, 165446.0, 0.643783, 129770e3, 996681e3),
+        (37637.9, 596514.0, 1.93195, 8678.50e3, 29557.2e3)),
+}
+# fmt: on
+_SPRING = ("plateau_force", "plateau_length", "stiffness", "unloading_stiffness")
+
+
+def _written_out(speed, friction_force, friction_on, mass, stiffness, damping_ratio, engine, body):
     truck = Truck(
         name="hard to follow",
-        engine_mass=m1,
-        body_mass=m2,
-        engine_spring=CrushSpring(**dict(zip(names, spring1, strict=True))),
-        body_spring=CrushSpring(**dict(zip(names, spring2, strict=True))),
+        engine_mass=engine[0],
+        body_mass=body[0],
+        engine_spring=CrushSpring(**dict(zip(_SPRING, engine[1:], strict=True))),
+        body_spring=CrushSpring(**dict(zip(_SPRING, body[1:], strict=True))),
         friction_force=friction_force,
         friction_on=friction_on,
     )
-    mass, stiffness, damping_ratio = pier
-    return Case(
-        truck, EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=damping_ratio), speed
-    )
+    pier = EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=damping_ratio)
+    return Case(truck, pier, speed)
 
 
-HARD = {
-    # The engine opens, meets the pier again and opens, each within a fraction of a period.
-    "engine bounces before the cargo arrives": _written_out(
-        engine=(824.047, 180325.0, 0.578723, 107361e3, 771396e3),
-        body=(31905.7, 618890.0, 1.80752, 10097.7e3, 28959.5e3),
-        friction=(0.0, "road"),
-        pier=(5278.20, 16975.4e3, 0.00369915),
-        speed=13.7663,
-    ),
-    "engine bounces on a soft pier": _written_out(
-        engine=(744.108, 143292.0, 0.626099, 159809e3, 1413040e3),
-        body=(32006.2, 353814.0, 1.95652, 8293.24e3, 21431.4e3),
-        friction=(0.0, "road"),
-        pier=(2414.39, 4040.59e3, 0.0389281),
-        speed=12.5774,
-    ),
-    "engine arrives after the cargo": _written_out(
-        engine=(578.119, 166945.0, 0.530240, 165902e3, 433370e3),
-        body=(13397.6, 599785.0, 1.52722, 11797.8e3, 22455.3e3),
-        friction=(0.0, "road"),
-        pier=(6177.45, 3257.19e3, 0.110244),
-        speed=18.7160,
-    ),
-    "engine bounces and the cargo arrives late": _written_out(
-        engine=(501.733, 181562.0, 0.538148, 185552e3, 1769010e3),
-        body=(33784.7, 388066.0, 1.90705, 7284.69e3, 15873.1e3),
-        friction=(0.0, "road"),
-        pier=(2393.95, 3117.36e3, 0.0652138),
-        speed=6.88343,
-    ),
-    # The cargo arrives although the pier has swung through a whole period without a change.
-    "cargo arrives on the next swing": _written_out(
-        engine=(865.744, 126573.0, 0.504744, 178202e3, 720925e3),
-        body=(30386.8, 510529.0, 1.58080, 11025.4e3, 55800.0e3),
-        friction=(0.0, "road"),
-        pier=(66271.9, 13919.2e3, 0.134286),
-        speed=7.41182,
-    ),
-    "cargo arrives on the next swing, with friction": _written_out(
-        engine=(900.599, 149084.0, 0.538772, 190339e3, 1141780e3),
-        body=(5608.10, 632783.0, 1.87560, 8431.85e3, 76330.6e3),
-        friction=(5306.57, "road"),
-        pier=(3529.70, 20320.2e3, 0.128642),
-        speed=20.7996,
-    ),
-    "cargo arrives after the engine's third contact": _written_out(
-        engine=(868.175, 106772.0, 0.536689, 166630e3, 739334e3),
-        body=(5700.54, 586508.0, 1.61270, 10010.4e3, 20947.6e3),
-        friction=(0.0, "road"),
-        pier=(2274.05, 2030.70e3, 0.155654),
-        speed=19.2785,
-    ),
-    # The body sticks to the pier and slips off backwards where its acceleration is still zero.
-    "body sticks to the pier and slips": _written_out(
-        engine=(665.413, 124341.0, 0.440150, 177214e3, 1343030e3),
-        body=(6021.65, 372681.0, 1.38459, 9477.12e3, 92949.0e3),
-        friction=(33524.4, "pier"),
-        pier=(2023.31, 520.020e3, 0.0131524),
-        speed=13.1611,
-    ),
-    # The engine turns 0.2 mm after its contact.
-    "engine hardly arrives": _written_out(
-        engine=(679.420, 165446.0, 0.643783, 129770e3, 996681e3),
-        body=(37637.9, 596514.0, 1.93195, 8678.50e3, 29557.2e3),
-        friction=(4889.30, "road"),
-        pier=(50476.6, 26964.5e3, 0.0772216),
-        speed=18.1026,
-    ),
-}
+HARD = {name: _written_out(*row) for name, row in _HARD.items()}

@@ -8,6 +8,25 @@ from nbformat import v4
 from pierimpact.report.exporters import SheetHTMLExporter
 from pierimpact.report.write import report_notebook
 
+US_CASE = {
+    "column_shape": "rectangular",
+    "column_width": "4 ft",
+    "column_depth": "36 in",
+    "column_height": "16.5 ft",
+    "concrete_strength": "4 ksi",
+    "density": "150 lb/ft^3",
+    "base": "fixed",
+    "top": "fixed",
+    "truck": "single-unit-8t",
+    "truck_mass": "36000 lb",
+    "speed": "55 mph",
+    "impact_height": "auto",
+    "damping_ratio": 0.03,
+    "units": "US",
+    "shear_resistance": "3000 kip",
+    "moment_resistance": "2500 kip*ft",
+}
+
 
 def page_of(values):
     """Return the HTML page of the report of a case's keys and values."""

@@ -28,7 +28,8 @@ pytestmark = pytest.mark.skipif(
 HOUSE = Path(__file__).parents[1]
 LESSONS = sorted(path.stem for path in (HOUSE / "notebooks").glob("0*.ipynb"))
 TOKEN = "for-loopback-only"
-PATIENCE = 90  # for a server, a kernel or a page to be ready [s]
+PATIENCE = 600  # only a server, a kernel or a page that hangs takes longer [s]
+ASK_AGAIN = 20  # for what a page lost [s]
 OPTIONS = (
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
@@ -183,7 +184,7 @@ class Lesson(Page):
         is started anew by JupyterLab: both are asked once more.
         """
         status = self.one(".jp-Notebook-ExecutionIndicator").get_attribute("data-status")
-        rests = "idle" in status and time.monotonic() > self.asked + PATIENCE / 5
+        rests = "idle" in status and time.monotonic() > self.asked + ASK_AGAIN
         if not self.figures() and rests and self.run_all():
             self.asked = time.monotonic()
         return self.figures()

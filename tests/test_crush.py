@@ -2,14 +2,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
 from pierimpact import CrushSpring, InputError
-
-# The same examples every time, so that a run can be repeated.
-GENERATED = settings(deadline=None, derandomize=True)
 
 ENGINE = {
     "plateau_force": 150e3,
@@ -44,7 +41,6 @@ def test_envelope_of_the_engine_spring():
     assert spring.envelope(0.3).shape == ()
 
 
-@GENERATED
 @given(springs())
 def test_envelope_is_continuous_with_the_three_slopes(spring):
     limit, length = spring.elastic_limit, spring.plateau_length
@@ -60,7 +56,6 @@ def test_envelope_is_continuous_with_the_three_slopes(spring):
         assert spring.envelope((limit + length) / 2.0) == spring.plateau_force
 
 
-@GENERATED
 @given(springs(), st.floats(0.0, 1.5))
 def test_dissipated_is_the_work_in_less_the_work_out(spring, fraction):
     largest = fraction * spring.plateau_length
@@ -75,7 +70,6 @@ def test_dissipated_is_the_work_in_less_the_work_out(spring, fraction):
     assert lost >= -1e-9 * work_in
 
 
-@GENERATED
 @given(springs(), st.floats(0.0, 1.0))
 def test_nothing_is_lost_below_the_elastic_limit(spring, fraction):
     crush = fraction * spring.elastic_limit
@@ -83,7 +77,6 @@ def test_nothing_is_lost_below_the_elastic_limit(spring, fraction):
     assert abs(spring.dissipated(crush)) <= 1e-12 * largest_energy
 
 
-@GENERATED
 @given(springs())
 def test_dissipated_grows_with_the_crush(spring):
     crush = np.linspace(0.0, 2.0 * spring.plateau_length, 50)

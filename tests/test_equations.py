@@ -8,12 +8,12 @@ import latex_formulas
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pierimpact.design.equations import GIVEN
 
 from pierimpact import EquivalentPier, design_reaction, load_truck
-from pierimpact.design.equations import GIVEN
 from pierimpact.design.procedure import LEVELS
 
-GENERATED = settings(deadline=None, derandomize=True, max_examples=80)
+GENERATED = settings(max_examples=80)
 TRUCK = load_truck("single-unit-8t")
 PIER = EquivalentPier(mass=8e3, stiffness=284e6, damping_ratio=0.05)
 

@@ -1,9 +1,13 @@
+import math
 import re
 from pathlib import Path
 
 import pytest
+from calculator import Procedure
+from reference import solve
+from scipy.optimize import brentq
 
-from pierimpact import exercises
+from pierimpact import CircularSection, EquivalentPier, PierColumn, exercises, load_truck
 from pierimpact.checks import InputError
 from pierimpact.teaching.checker import Question, check
 from pierimpact.teaching.questions import QUESTIONS
@@ -26,9 +30,90 @@ def typed(question, value):
     )
 
 
-@pytest.mark.parametrize("question", ALL)
-def test_the_answer_is_right(question):
-    verdict = check(question, typed(question, question.answer()))
+KMH = 1.0 / 3.6
+TRUCK = load_truck("single-unit-8t")
+COLUMN = PierColumn(
+    height=5.0, section=CircularSection(diameter=0.914), elastic_modulus=25e9, density=2400.0
+)
+PIER = COLUMN.equivalent(1.2)
+
+
+def solved(frequency):
+    """The full model of the truck and a pier of 8 t, by the tests' own integration."""
+    stiffness = 8e3 * (2.0 * math.pi * frequency) ** 2
+    return solve(TRUCK, EquivalentPier(mass=8e3, stiffness=stiffness), 80.0 * KMH)
+
+
+def crossing():
+    """Frequency from which on the engine governs [Hz]."""
+
+    def excess(frequency):
+        found = solved(frequency)
+        return found.engine - found.cargo
+
+    return brentq(excess, 40.0, 60.0, xtol=0.05)
+
+
+def designed():
+    found = Procedure(TRUCK, PIER, 60.0 * KMH, "refined")
+    return max(found.engine, found.cargo)
+
+
+# Worked out from the numbers in the words.
+ANSWERS = {
+    "collision": (
+        lambda: 0.5 * 8e3 * (60.0 * KMH) ** 2,
+        lambda: math.sqrt((60.0 * KMH) ** 2 - 2.0 * 150e3 * 0.5 / 700.0),
+        lambda: math.sqrt(2.0 * 521.5e3 * 1.9 / 7300.0),
+        lambda: "the cargo peak",
+    ),
+    "pier": (
+        lambda: 1.0 / (1.2**3 / (3.0 * 502.65e6) + 1.2 / 4712.4e6),
+        lambda: 1574.7 * 4.054,
+        lambda: math.sqrt(1e5) / (2.0 * math.pi),
+        lambda: "softer",
+    ),
+    "reduction": (
+        lambda: 30.0 * 2.0 * math.pi / math.sqrt(150e6 / 700.0),
+        lambda: 50.0 * KMH * math.sqrt(150e6 * 700.0),
+        lambda: 0.1 * (1.0 + math.sqrt(150.0 / 900.0)),
+    ),
+    "spectra": (
+        lambda: solved(10.0).engine,
+        lambda: solved(10.0).cargo,
+        crossing,
+        lambda: "the engine peak",
+    ),
+    "design": (
+        designed,
+        lambda: 25.0 * math.sqrt(300e3 * 30e3),
+        lambda: designed() / 2668.933e3,
+    ),
+    "limits": (
+        lambda: "the engine’s mass",
+        lambda: math.sqrt(1.0 / 6.0),
+        lambda: "illustrative values of this project",
+    ),
+}
+
+
+@pytest.mark.parametrize(
+    ("question", "worked_out"),
+    [
+        pytest.param(question, worked_out, id=f"{topic} {number}")
+        for topic, questions in QUESTIONS.items()
+        for number, (question, worked_out) in enumerate(
+            zip(questions, ANSWERS[topic], strict=True), 1
+        )
+    ],
+)
+def test_the_answer_is_what_its_words_ask_for(question, worked_out):
+    answer, expected = question.answer(), worked_out()
+    if isinstance(expected, str):
+        assert answer == expected
+    else:  # the words have four figures, and a spectrum its steps
+        assert answer == pytest.approx(expected, rel=0.02 if worked_out is crossing else 5e-4)
+    verdict = check(question, typed(question, expected))
     assert verdict.right, verdict.words
 
 
@@ -66,8 +151,15 @@ FORCE = Question(words="?", dimension="force", answer=lambda: 2.5e6)
         ("2500 N", "N or kN"),
         ("2500 MN", "N or kN"),
         ("5 MN", "out by 2"),
+        ("2.5 N", "out by a million"),
+        ("9 MN", "out by 3.6:"),
+        ("32.4 MN", "out by 3.6²"),
+        ("25 MN", "out by about 10"),
+        ("15.7 MN", "out by 2π"),
+        ("625 kN", "out by 4"),
         ("-2.5 MN", "sign"),
         ("2.6 MN", "Close"),
+        ("3 MN", "too large"),
         ("70 kN", "too small"),
         ("80 MN", "too large"),
     ],

@@ -5,9 +5,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
-
-from pierimpact.design import formulas
 from pierimpact.design.formulas import (
     ContactModes,
     Mode,
@@ -21,6 +18,9 @@ from pierimpact.design.formulas import (
     hump,
     swing,
 )
+from scipy.integrate import quad, solve_ivp
+
+from pierimpact.design import formulas
 
 SEEDS = range(8)
 

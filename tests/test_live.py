@@ -40,7 +40,7 @@ STATES = st.tuples(
 )
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(states=st.lists(STATES, min_size=1, max_size=5))
 def test_a_figure_redrawn_in_part_is_the_figure_drawn_anew(states):
     live, afresh = figure(), figure()

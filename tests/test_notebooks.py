@@ -29,7 +29,7 @@ def executed(request, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", str(HOUSE))
         client = NotebookClient(
-            notebook, timeout=120, resources={"metadata": {"path": folder}}, config=config
+            notebook, timeout=600, resources={"metadata": {"path": folder}}, config=config
         )
         return client.execute()
 

@@ -3,13 +3,12 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from pierimpact import EquivalentPier, InputError
 
 
-@settings(deadline=None, derandomize=True)
 @given(st.floats(1e3, 1e6), st.floats(1e6, 1e11), st.floats(0.0, 0.99))
 def test_frequency_and_damping_are_those_of_the_free_vibration(mass, stiffness, damping_ratio):
     pier = EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=damping_ratio)

@@ -5,6 +5,7 @@ import math
 import re
 
 import pytest
+from mathml import half_unit
 
 from pierimpact.files.case import case_from
 from pierimpact.report.calculation import calculate
@@ -83,20 +84,11 @@ def value(expression):
     return eval(expression, {"math": math, "unit": lambda text: _unit(text)[0]})
 
 
-def rounding(text):
-    """Return half a unit in the last place of a printed number; short numbers are exact."""
-    figures = text.replace(".", "").lstrip("0")
-    if len(figures) < 4:
-        return 0.0
-    decimals = len(text.partition(".")[2])
-    return 0.5 * 10.0 ** (-decimals if decimals else max(len(figures) - 5, 0))
-
-
 def spread(expression):
     """Return how far the rounding of the numbers in an expression can move its value."""
     whole = 0.0
     for match in NUMBER.finditer(expression):
-        moved = float(match[0]) + rounding(match[0])
+        moved = float(match[0]) + half_unit(match[0])
         changed = f"{expression[: match.start()]}{moved!r}{expression[match.end() :]}"
         whole += abs(value(changed) - value(expression))
     return whole

@@ -11,7 +11,7 @@ from pierimpact import (
     load_truck,
     simulate,
 )
-from pierimpact.design.sensitivity import MASS_CHANGE, SPEED_CHANGE, sensitivity
+from pierimpact.design.sensitivity import sensitivity
 
 TRUCK = load_truck("single-unit-8t")
 COLUMN = PierColumn(
@@ -53,16 +53,33 @@ def test_each_value_is_that_of_a_calculation_of_its_own(found, name):
         assert variation.model[index] == pytest.approx(history.governing_peak.reaction, rel=1e-6)
         assert variation.design[index] == pytest.approx(design.reaction, rel=1e-9)
         assert np.isnan(variation.cargo[index]) == (history.cargo_peak is None)
+        assert variation.engine[index] == pytest.approx(history.engine_peak.reaction, rel=1e-6)
+        assert variation.design_engine[index] == pytest.approx(design.engine, rel=1e-9)
+        if history.cargo_peak is not None:
+            assert variation.cargo[index] == pytest.approx(history.cargo_peak.reaction, rel=1e-6)
+        if design.cargo is not None:
+            assert variation.design_cargo[index] == pytest.approx(design.cargo, rel=1e-9)
 
 
 def test_the_changes_of_a_reviewer(found):
-    assert found.slower.values == [SPEED - SPEED_CHANGE]
-    assert found.faster.values == [SPEED + SPEED_CHANGE]
-    assert found.lighter.values == [TRUCK.mass * (1.0 - MASS_CHANGE)]
-    assert found.heavier.values == [TRUCK.mass * (1.0 + MASS_CHANGE)]
+    step = 10.0 / 3.6  # 10 km/h
+    assert found.slower.values == pytest.approx([SPEED - step])
+    assert found.faster.values == pytest.approx([SPEED + step])
+    assert found.lighter.values == pytest.approx([0.8 * TRUCK.mass])
+    assert found.heavier.values == pytest.approx([1.2 * TRUCK.mass])
     assert found.slower.model[0] < found.faster.model[0]
-    history = simulate(TRUCK, PIER, SPEED + SPEED_CHANGE)
+    history = simulate(TRUCK, PIER, SPEED + step)
     assert found.faster.model[0] == pytest.approx(history.governing_peak.reaction, rel=1e-6)
+
+
+def test_the_curves_run_over_half_the_value_to_either_side(found):
+    for variation, value in ((found.speed, SPEED), (found.mass, TRUCK.mass)):
+        low, high = variation.values[[0, -1]]
+        assert (low, high) == pytest.approx((0.5 * value, 1.5 * value))
+        assert len(variation.values) > 20
+    assert found.impact_height.values[0] == pytest.approx(0.5 * HEIGHT)
+    spectrum = found.frequency.values[found.frequency.values != PIER.frequency]
+    assert spectrum[[0, -1]] == pytest.approx([2.0, 200.0])
 
 
 def test_heights_stay_on_the_column_and_this_pier_is_in_the_spectrum(found):

@@ -1,47 +1,65 @@
-"""Spectra by three routes against the functions they gather."""
+"""Spectra by three routes, each against an independent computation."""
 
+import dataclasses
+import functools
 import math
 
 import numpy as np
 import pytest
+import reference
+import two_degrees
+from calculator import Procedure, closed_spectrum
+from generated_collisions import collisions
 
-from pierimpact import (
-    InputError,
-    cargo_spectrum,
-    design_reactions,
-    engine_spectrum,
-    load_truck,
-    peak_reactions,
-)
-from pierimpact.design.formulas import amplification
-from pierimpact.design.reduction import exact_amplification
+from pierimpact import InputError, cargo_spectrum, engine_spectrum, load_truck
 from pierimpact.design.spectra import FREQUENCIES
 
 TRUCK = load_truck("single-unit-8t")
 SPEED, MASS, ZETA = 22.2, 12e3, 0.04
 FEW = np.geomspace(8.0, 150.0, 12)
 SPECTRA = {"engine": engine_spectrum, "cargo": cargo_spectrum}
+CASES = collisions(8, seed=50)
+solved = functools.cache(reference.solve)
+integrated = functools.cache(two_degrees.amplification)
+
+
+def spectrum_of(which, case, level="refined"):
+    """The spectrum of a generated collision, at its own frequency and at two others."""
+    truck, pier, speed = case
+    frequency = pier.frequency * np.array([0.5, 1.0, 2.0])
+    return SPECTRA[which](truck, speed, pier.mass, pier.damping_ratio, frequency, level)
+
+
+def each_collision(case):
+    """The collisions that `spectrum_of` gathers."""
+    for share in (0.5, 1.0, 2.0):
+        pier = dataclasses.replace(case.pier, stiffness=case.pier.stiffness * share**2)
+        yield case.truck, pier, case.speed
+
+
+@pytest.mark.parametrize("which", SPECTRA)
+def test_the_full_model_is_the_reference(which):
+    for case in CASES:
+        expected = [getattr(solved(*one), which) for one in each_collision(case)]
+        np.testing.assert_allclose(spectrum_of(which, case).full_model, expected, rtol=1e-8)
 
 
 @pytest.mark.parametrize("level", ["refined", "hand"])
 @pytest.mark.parametrize("which", SPECTRA)
-def test_routes(which, level):
-    found = SPECTRA[which](TRUCK, SPEED, MASS, ZETA, FEW, level)
-    stiffness = MASS * (2.0 * np.pi * FEW) ** 2
-    peaks = peak_reactions(TRUCK, MASS, stiffness, ZETA, SPEED)
-    design = design_reactions(TRUCK, MASS, stiffness, ZETA, SPEED, level=level)
-    np.testing.assert_array_equal(found.full_model, getattr(peaks, which))
-    np.testing.assert_array_equal(found.closed_form, getattr(design, which))
-    # All three tell of the same thing.
-    for route in (found.closed_form, found.two_degrees):
-        np.testing.assert_allclose(route / found.full_model, 1.0, atol=0.4)
+def test_the_closed_form_is_the_procedure_typed_again(which, level):
+    for case in CASES:
+        expected = [getattr(Procedure(*one, level), which) for one in each_collision(case)]
+        found = spectrum_of(which, case, level).closed_form
+        np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
-def test_the_two_degrees_differ_from_the_hand_formula_by_the_amplification():
-    found = engine_spectrum(TRUCK, SPEED, MASS, ZETA, FEW, "hand")
-    shift, ratio = found.two_degrees / found.closed_form, found.exact / found.closed
-    assert np.abs(ratio - 1.0).max() > 0.01
-    assert (np.sign(shift - 1.0) == np.sign(ratio - 1.0)).all()
+@pytest.mark.parametrize("which", SPECTRA)
+def test_the_two_degrees_are_an_independent_integration_in_the_hand_formula(which):
+    for case in CASES[:4]:
+        typed = [Procedure(*one, "hand", integrated) for one in each_collision(case)]
+        expected = [getattr(each, which) for each in typed]
+        found = spectrum_of(which, case).two_degrees
+        np.testing.assert_allclose(found, expected, rtol=1e-5)
 
 
 @pytest.mark.parametrize("which", SPECTRA)
@@ -51,8 +69,12 @@ def test_dimensionless_part(which):
     beta = FEW / (math.sqrt(stiffness / mass) / (2.0 * math.pi))
     e = math.sqrt(1.0 / 6.0)
     np.testing.assert_allclose(found.frequency_ratio, beta, rtol=1e-12)
-    np.testing.assert_allclose(found.exact, exact_amplification(beta, mass / MASS, e, ZETA))
-    np.testing.assert_allclose(found.closed, amplification(beta, mass / MASS, e, ZETA))
+    for route, expected, rtol in (
+        (found.closed, closed_spectrum, 1e-12),
+        (found.exact, integrated, 1e-5),
+    ):
+        amplification = [expected(each, mass / MASS, e, ZETA) for each in beta]
+        np.testing.assert_allclose(route, amplification, rtol=rtol)
     np.testing.assert_array_equal(found.frequency, FEW)
 
 

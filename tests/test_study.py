@@ -140,15 +140,20 @@ def test_summary():
     assert found["mean"] == pytest.approx(1.0)
     assert found["coefficient of variation"] == pytest.approx(np.std([1.0, 1.2, 0.8]))
     assert (found["smallest"], found["largest"]) == (0.8, 1.2)
+    ramp = study.summary(np.linspace(1.0, 2.0, 101))
+    assert (ramp["1st percentile"], ramp["99th percentile"]) == pytest.approx((1.01, 1.99))
+    assert ramp["coefficient of variation"] == pytest.approx(np.sqrt(0.085) / 1.5)  # var: (n²−1)/12
     assert study.summary(np.array([np.nan])) == {"cases": 0}
 
 
-def test_bands_part_the_cases():
+def test_bands_part_the_cases(outcome):
     case = domain.sample(300, 5)
     exact = study.full_model(case)
     found = study.assessment(case, exact, exact)
     for which in study.Reactions._fields:
         bands = dict(found[which])
+        for level in LEVELS:
+            assert list(outcome["predicted over CMSD"][level][which]) == list(bands)
         everything = bands.pop("all")
         assert sum(band["cases"] for band in bands.values()) == everything["cases"]
         assert everything["mean"] == 1.0

@@ -6,7 +6,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pierimpact.checks import InputError
-from pierimpact.units import DIMENSIONS, QUANTITIES, SYSTEMS, parse, printed, rounded
+from pierimpact.units import (
+    DIMENSIONS,
+    QUANTITIES,
+    SYSTEMS,
+    parse,
+    printed,
+    rounded,
+    unit_of,
+    unit_size,
+)
 
 # The international inch and pound, standard gravity, and what follows from them.
 INCH, POUND, GRAVITY = 0.0254, 0.45359237, 9.80665
@@ -38,6 +47,56 @@ POUND_FORCE = POUND * GRAVITY
 )
 def test_parse(text, dimension, expected):
     assert parse("value", text, dimension) == pytest.approx(expected, rel=1e-14)
+
+
+# Every unit in SI units, by what it measures.
+SIZES = {
+    "length": {
+        "m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3, "in": INCH, "inch": INCH, "ft": 12 * INCH,
+        "yd": 36 * INCH, "mi": 63360 * INCH, "mile": 63360 * INCH,
+    },
+    "mass": {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": POUND},
+    "time": {"s": 1.0, "ms": 1e-3, "min": 60.0, "minute": 60.0, "h": 3600.0},
+    "frequency": {"Hz": 1.0},
+    "force": {
+        "N": 1.0, "kN": 1e3, "MN": 1e6, "GN": 1e9, "lbf": POUND_FORCE, "kip": 1e3 * POUND_FORCE,
+    },
+    "pressure": {
+        "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "psi": POUND_FORCE / INCH**2,
+        "ksi": 1e3 * POUND_FORCE / INCH**2,
+    },
+    "energy": {"J": 1.0, "kJ": 1e3, "MJ": 1e6},
+    "speed": {"kph": 1 / 3.6, "mph": 63360 * INCH / 3600},
+}  # fmt: skip
+
+
+def test_every_unit_has_its_size():
+    for dimension, sizes in SIZES.items():
+        for unit, size in sizes.items():
+            assert parse("value", f"1 {unit}", dimension) == pytest.approx(size, rel=1e-14), unit
+    known = {unit for sizes in SIZES.values() for unit in sizes}
+    suggested = {unit for dimension in DIMENSIONS.values() for unit in dimension.units.split(", ")}
+    assert {word for unit in suggested for word in re.findall("[A-Za-z]+", unit)} <= known
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_the_printed_unit_is_the_one_divided_by(quantity, system):
+    unit = unit_of(quantity, system)
+    size = 1.0
+    for power, word in re.findall(r"([·/]?)([A-Za-z]+[²³⁴]?)", unit.replace("rad/s", "1/s")):
+        name, exponent = word.rstrip("²³⁴"), {"²": 2, "³": 3, "⁴": 4}.get(word[-1], 1)
+        if name != "rad":
+            (factor,) = {sizes[name] for sizes in SIZES.values() if name in sizes}
+            size *= factor ** (-exponent if power == "/" else exponent)
+    assert unit_size(quantity, system) == pytest.approx(size, rel=1e-14)
+
+
+def test_results_have_four_figures_and_what_they_rest_on_five():
+    four = {"damping", "frequency", "speed", "energy", "force", "moment", "time"}
+    four |= {"ordinate", "ratio"}
+    assert {name for name, kind in QUANTITIES.items() if kind.digits == 4} == four
+    assert {kind.digits for kind in QUANTITIES.values()} == {4, 5}
 
 
 @pytest.mark.parametrize(
@@ -113,6 +172,8 @@ def test_rounding_keeps_the_significant_figures(value, digits):
         (-1.25, 3, "−1.25"),
         (4.2e-5, 2, "4.2×10⁻⁵"),
         (0.0, 4, "0"),
+        (0.00123, 3, "0.00123"),
+        (0.000123, 3, "1.23×10⁻⁴"),
     ],
 )
 def test_rounded(value, digits, text):

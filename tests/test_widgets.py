@@ -135,7 +135,7 @@ def anywhere_on_its_slider(name):
     return st.floats(variable.low * variable.size, variable.high * variable.size)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(values=st.fixed_dictionaries({n: anywhere_on_its_slider(n) for n in ON_SHOW}))
 def test_no_values_of_the_sliders_raise(collision, values):
     collision.set(**values)
