@@ -185,8 +185,6 @@ def _lines(function: Callable[..., Any]) -> list[_Line]:
             if line in remarks
         )
         match statement:
-            case ast.Expr(value=ast.Constant()):  # the docstring
-                continue
             case ast.Assign(targets=[ast.Name(id=name)], value=value):
                 lines.append(_Line(name, value, remark))
             case ast.Assign(
@@ -239,9 +237,9 @@ class _Case(ast.NodeTransformer):
                 self.scope.get(name)
             ):
                 formula = self.scope[name]
-                *_, last = body = _source(formula)[0]
-                if not isinstance(last, ast.Return) or last.value is None or len(body) > 2:
-                    raise _unprintable(f"the formula {name}", last)
+                *others, last = _source(formula)[0]
+                if not isinstance(last, ast.Return) or last.value is None or others:
+                    raise _unprintable(f"the formula {name}", (*others, last)[0])
                 put = _bound(formula, [self.visit(argument) for argument in arguments])
                 inner = _Case(_scope(formula), self.values)
                 expression = inner.visit(_Put(put).visit(_copy(last.value)))
@@ -396,7 +394,7 @@ def _bound(function: Callable[..., Any], arguments: Sequence[ast.expr]) -> dict[
 
 @cache
 def _source(function: Callable[..., Any]) -> tuple[list[ast.stmt], dict[int, str]]:
-    """Return the body of a function, and the comments behind its lines by number."""
+    """Return what a function does, and the comments behind its lines by number."""
     source = textwrap.dedent(inspect.getsource(function))
     definition = ast.parse(source).body[0]
     assert isinstance(definition, ast.FunctionDef)
@@ -408,7 +406,8 @@ def _source(function: Callable[..., Any]) -> tuple[list[ast.stmt], dict[int, str
     remarks = {
         line: text for line, text in remarks.items() if not text.startswith(("fmt:", "noqa"))
     }
-    return definition.body, remarks
+    body = definition.body[ast.get_docstring(definition) is not None :]
+    return body, remarks
 
 
 def _scope(function: Callable[..., Any]) -> dict[str, Any]:

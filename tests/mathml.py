@@ -2,7 +2,10 @@
 
 import math
 import re
+import subprocess
 from xml.etree import ElementTree
+
+from pypandoc import get_pandoc_path
 
 from pierimpact.units import _unit
 
@@ -20,6 +23,19 @@ WORDS = {
 SIGNS = {"−": "-", "×": "*", "[": "(", "]": ")", "⌊": "math.floor(", "⌋": ")", "\u2061": ""}
 OPERATORS = {"+", "-", "*", "/", "%", "(", ")", ",", "=", "**", ""}
 NUMBER = re.compile(r"\d+(\.\d+)?")
+
+
+def converted(formulas):
+    """Return LaTeX formulas as MathML, by one call of pandoc."""
+    done = subprocess.run(
+        [get_pandoc_path(), "--from=markdown", "--to=html5", "--mathml", "--fail-if-warnings"],
+        input="\n\n".join(f"$${formula}$$" for formula in formulas),
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    )
+    page = re.sub(r"<annotation.*?</annotation>", "", done.stdout, flags=re.DOTALL)
+    return re.findall(r"<math.*?</math>", page, re.DOTALL)
 
 
 def tokens(element):

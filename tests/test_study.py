@@ -8,7 +8,7 @@ import pytest
 from pierimpact import peak_reactions
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import parameter_chunks
-from pierimpact.design import domain, formulas, study
+from pierimpact.design import domain, procedure, study
 from pierimpact.design.procedure import LEVELS
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.files.trucks import load_truck
@@ -38,11 +38,11 @@ def test_the_file_is_of_this_domain_seed_and_size(outcome):
 def test_a_refit_gives_the_coefficients_in_use(outcome, spectrum):
     fitted = study.fit(*spectrum)
     used = {
-        "height": formulas.HUMP,
-        "end": formulas.HUMP_END,
-        "decline": formulas.HUMP_DECLINE,
-        "mass_effect": formulas.MASS_EFFECT,
-        "damping_effect": formulas.DAMPING_EFFECT,
+        "height": procedure.RESONANCE,
+        "end": procedure.RESONANCE_END,
+        "decline": procedure.RESONANCE_DECLINE,
+        "mass_effect": procedure.MASS_EFFECT,
+        "damping_effect": procedure.DAMPING_EFFECT,
     }
     assert outcome["used"] == used
     for name, value in used.items():
@@ -55,13 +55,13 @@ def test_a_refit_recovers_coefficients_it_does_not_know():
     arguments = study.spectrum_arguments(domain.sample(400, 9))
     beta, mu, e, zeta = arguments
     known = {"height": 1.2, "end": 2.5, "decline": 2.2, "mass_effect": 0.8, "damping_effect": 4.0}
-    exact = formulas.joined(beta, mu, e, formulas.hump(beta, mu, zeta, **known))
+    exact = procedure.combined(beta, mu, e, procedure.resonance(beta, mu, zeta, **known))
     assert study.fit(arguments, exact) == pytest.approx(known, rel=1e-4)
 
 
 def test_the_fit_s_error_is_the_file_s(outcome, spectrum):
     arguments, exact = spectrum
-    ratios = formulas.amplification(*arguments) / exact
+    ratios = procedure.amplification(*arguments) / exact
     size = outcome["size"]
     for body, part in (("engine", slice(0, size)), ("cargo", slice(size, None))):
         found, stated = (

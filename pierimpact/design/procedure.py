@@ -232,6 +232,21 @@ def second_moment(e: Real) -> Real:
     ) / (1 + e)  # fmt: skip
 
 
+def frequencies(beta2: Real, mu2: Real, omega: Real) -> tuple[Real, ...]:
+    """Return circular frequencies of the two modes of pier and cargo in contact, and their shapes.
+
+    A shape is the displacement of the body over the pier's.
+    """
+    gamma = (beta2**2 + mu2 - 1) / 2
+    lam = sqrt(gamma**2 + mu2)
+    Lam = where(gamma > 0, lam + gamma, mu2 / (lam + abs(gamma)))  # without loss of figures
+    omega_s = omega / sqrt(1 + gamma + lam)
+    psi_s = Lam / mu2
+    omega_f = omega / beta2 * sqrt(1 + gamma + lam)
+    psi_f = -1 / Lam
+    return gamma, lam, Lam, omega_s, psi_s, omega_f, psi_f
+
+
 def mode(
     omega_i: Real, psi: Real, mu2: Real, omega: Real, zeta: Real, x2: Real, dx2: Real, v2: Real,
     x0: Real, Fb: Real, k2: Real,
@@ -263,14 +278,33 @@ def of_mode(t: Real, X: Real, sigma: Real, omega: Real, phi: Real) -> Real:
     return X * exp(-sigma * t) * cos(omega * t - phi)
 
 
+def curvature(X: Real, omega: Real) -> Real:
+    """Return the curvature of a mode at its maximum [m/s²]."""
+    return X * omega**2
+
+
 def fast_maximum(n: Real, theta_f: Real, omega_f: Real) -> Real:
     """Return the time of the fast mode's maximum after n periods [s]."""
     return (theta_f + 2 * pi * n) / omega_f
 
 
-def curvature(X: Real, omega: Real) -> Real:
-    """Return the curvature of a mode at its maximum [m/s²]."""
-    return X * omega**2
+def maxima(
+    X_s: Real, sigma_s: Real, omega_s: Real, theta_s: Real,
+    X_f: Real, sigma_f: Real, omega_f: Real, theta_f: Real,
+) -> tuple[Real, ...]:  # fmt: skip
+    """Return when both modes together are largest, before and after the slow one is.
+
+    Near its maximum each mode is a parabola, so that the sum has its maximum at the mean of both
+    maxima, weighted by the curvatures; the fast mode has one before and one after the slow mode's.
+    """
+    tu = theta_s / omega_s
+    w = 1 / (
+        1 + curvature(X_s, omega_s) / (curvature(X_f, omega_f) * exp((sigma_s - sigma_f) * tu))
+    )
+    n = floor((omega_f * tu - theta_f) / (2 * pi))
+    ta = maximum(tu + w * (fast_maximum(n, theta_f, omega_f) - tu), 0)
+    tb = tu + w * (fast_maximum(n + 1, theta_f, omega_f) - tu)
+    return tu, w, n, ta, tb
 
 
 @Calculation
@@ -319,28 +353,14 @@ def long(
     # Cargo: the two modes of body and pier
     beta2, mu2, e2 = ratios(omega, mp, m2, k2, ku2)
     x0 = (Q - Fb) / kp
-    gamma = (beta2**2 + mu2 - 1) / 2
-    lam = sqrt(gamma**2 + mu2)
-    Lam = where(gamma > 0, lam + gamma, mu2 / (lam + abs(gamma)))  # without loss of figures
-    omega_s = omega / sqrt(1 + gamma + lam)
-    psi_s = Lam / mu2
+    gamma, lam, Lam, omega_s, psi_s, omega_f, psi_f = frequencies(beta2, mu2, omega)
     sigma_s, a_s, b_s, X_s, phi_s, theta_s = mode(
         omega_s, psi_s, mu2, omega, zeta, x2, dx2, v2, x0, Fb, k2
     )
-    omega_f = omega / beta2 * sqrt(1 + gamma + lam)
-    psi_f = -1 / Lam
     sigma_f, a_f, b_f, X_f, phi_f, theta_f = mode(
         omega_f, psi_f, mu2, omega, zeta, x2, dx2, v2, x0, Fb, k2
     )
-    # Near its maximum each mode is a parabola, so that the sum has its maximum at the mean of
-    # both, weighted by their curvatures; the fast mode has one before and one after the slow's.
-    tu = theta_s / omega_s
-    w = 1 / (
-        1 + curvature(X_s, omega_s) / (curvature(X_f, omega_f) * exp((sigma_s - sigma_f) * tu))
-    )
-    n = floor((omega_f * tu - theta_f) / (2 * pi))
-    ta = maximum(tu + w * (fast_maximum(n, theta_f, omega_f) - tu), 0)
-    tb = tu + w * (fast_maximum(n + 1, theta_f, omega_f) - tu)
+    tu, w, n, ta, tb = maxima(X_s, sigma_s, omega_s, theta_s, X_f, sigma_f, omega_f, theta_f)
     xu = both_modes(tu, x0, X_s, sigma_s, omega_s, phi_s, X_f, sigma_f, omega_f, phi_f)
     xa = both_modes(ta, x0, X_s, sigma_s, omega_s, phi_s, X_f, sigma_f, omega_f, phi_f)
     # As the slow mode is largest the spring turns to unloading on k_u. The modes would push the
