@@ -25,7 +25,7 @@ from pierimpact.report.document.blocks import BLOCK_MIME, Block, for_html
 from pierimpact.resources import shipped
 
 _MARKDOWN = "markdown-citations-yaml_metadata_block"
-_CUT = "pierimpactcutshere"  # a paragraph between two pieces in what pandoc is given
+_CUT = "pierimpactcutshere"  # a paragraph between two pieces of pandoc's input
 
 
 def notebook_of(blocks: Iterable[Block]) -> NotebookNode:
@@ -39,9 +39,9 @@ def notebook_of(blocks: Iterable[Block]) -> NotebookNode:
 
 
 class _SheetExporter(TemplateExporter):
-    """What the two exporters share: the outputs and prose of a notebook as blocks of a sheet."""
+    """The common part of the exporters: a notebook's outputs and prose as blocks of a sheet."""
 
-    own_mime = ""  #: of outputs that go into the document as they are
+    own_mime = ""  #: MIME type of outputs that go into the document unchanged
     pandoc_options: tuple[str, ...]
 
     @default("extra_template_basedirs")
@@ -55,7 +55,7 @@ class _SheetExporter(TemplateExporter):
         return nb, resources
 
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
-        """Return what the template needs: the blocks, and what the title block says."""
+        """Return the data of the template: the blocks, and the fields of the title block."""
         sheet: dict[str, Any] = {
             "title": _title(nb),
             "date": "2000-01-01",
@@ -85,9 +85,9 @@ class _SheetExporter(TemplateExporter):
                     yield {"type": "Prose", "markdown": data["text/markdown"]}
 
     def _convert(self, blocks: list[dict[str, Any]]) -> None:
-        """Add to prose and mathematics what one call of pandoc makes of them."""
+        """Add the `converted` markup to prose and mathematics, by one call of pandoc."""
         parts = [(part, text) for part in _parts(blocks) if (text := _markdown(part)) is not None]
-        converted = self._pandoc([text for _, text in parts])
+        converted = self._pandoc([text for _, text in parts]) if parts else []
         for (part, _), text in zip(parts, converted, strict=True):
             formula = part["type"] != "Prose"
             part["converted"] = text.removeprefix("<p>").removesuffix("</p>") if formula else text
@@ -98,7 +98,7 @@ class _SheetExporter(TemplateExporter):
             input=f"\n\n{_CUT}\n\n".join(pieces),
             capture_output=True,
             encoding="utf-8",
-            start_new_session=True,  # where Ctrl-C does not reach it: that is for us to handle
+            start_new_session=True,  # out of reach of Ctrl-C, which the caller handles
         )
         if done.returncode != 0:
             raise RuntimeError(f"pandoc: {done.stderr.strip()}")
@@ -176,7 +176,7 @@ def _title(nb: NotebookNode) -> str:
 
 
 def _number(blocks: list[dict[str, Any]]) -> None:
-    """Give equations, figures and tables, and what refers to them, numbers in their order."""
+    """Add numbers to equations, figures and tables in their order, and to references to them."""
     parts = list(_parts(blocks))
     counts: Counter[str] = Counter()
     numbers: dict[str, str] = {}
@@ -215,7 +215,7 @@ class SheetPDFExporter(_SheetExporter):
     pandoc_options = ("--to=typst",)
 
     def _create_environment(self) -> Environment:
-        # Typst uses braces and hashes itself.
+        # Typst has its own use of braces and hashes. All text becomes a string literal.
         environment: Environment = super()._create_environment()  # type: ignore[no-untyped-call]
         environment.block_start_string, environment.block_end_string = "((*", "*))"
         environment.variable_start_string, environment.variable_end_string = "((=", "=))"
@@ -247,10 +247,10 @@ def _literal(value: Any) -> Any:
     """Return text as a Typst string literal: nothing in it can act as markup."""
     if isinstance(value, Markup):
         return value
-    escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-    return Markup(
-        '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
-    )
+    return Markup(f'"{value.translate(_ESCAPED)}"')
+
+
+_ESCAPED = str.maketrans({"\\": r"\\", '"': r"\"", "\n": r"\n", "\r": r"\r", "\t": r"\t"})
 
 
 def _breakable(text: str) -> str:
@@ -265,8 +265,8 @@ def compile_typst(source: str, date: str) -> tuple[bytes, str]:
     """Return the PDF of a Typst document, the same bytes for the same source and date.
 
     Where the text is in a script that the fonts at hand lack, such as Chinese, the fonts of the
-    system are searched: whoever writes in it has one. A character that no font has prints as its
-    number, such as [U+6865]: never as an empty box, and the PDF still keeps its standards.
+    system are searched too. A character that no font has prints as its number, such as [U+6865],
+    rather than as an empty box, which the PDF's standards do not allow.
 
     Parameters
     ----------
@@ -283,26 +283,24 @@ def compile_typst(source: str, date: str) -> tuple[bytes, str]:
         The characters that no font has, each once.
     """
     compiled: Callable[..., bytes] = typst.compile
-    options = {
+    options: dict[str, Any] = {
         "timestamp": datetime.datetime.fromisoformat(f"{date}T00:00:00+00:00"),
         "pdf_standards": ["a-2a", "ua-1"],
         "font_paths": [_font_folder()],
+        "ignore_system_fonts": True,
     }
-    try:
-        return compiled(source.encode(), ignore_system_fonts=True, **options), ""
-    except typst.TypstError as error:
-        if not _undisplayed(error):
-            raise
-    options["sys_inputs"] = {"fallback": "yes"}
     missing = ""
     while True:
         try:
             return compiled(source.encode(), **options), missing
         except typst.TypstError as error:
-            found = _undisplayed(error)
-            if not set(found) - set(missing):
+            found = sorted(set(_undisplayed(error)) - set(missing))
+            if not found:
                 raise
-            missing += "".join(sorted(set(found) - set(missing)))
+        if options["ignore_system_fonts"]:
+            options |= {"ignore_system_fonts": False, "sys_inputs": {"fallback": "yes"}}
+        else:
+            missing += "".join(found)
             source = "".join(f"[U+{ord(c):04X}]" if c in found else c for c in source)
 
 

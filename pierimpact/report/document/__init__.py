@@ -1,1 +1,1 @@
-"""What a sheet is made of: text, mathematics, tables, equations and figures."""
+"""The document a sheet is: text, mathematics, tables, equations and figures, as data."""

@@ -52,9 +52,9 @@ class TitleBlock(Block):
     Parameters
     ----------
     title, subtitle : str
-        What the sheet is.
+        Title, and the line below it.
     entries : mapping of str to str
-        The identification, label to text.
+        Project, element and the like, by their labels.
     date : str
         Date of the sheet, as 2026-01-31.
     paper : {"a4", "us-letter"}
@@ -78,7 +78,7 @@ class Headline(Block):
     Parameters
     ----------
     results : sequence of (str, Printed, str)
-        What it is, its value, and a remark.
+        Label, value and remark of each.
     """
 
     results: Sequence[tuple[str, Printed, str]]
@@ -93,7 +93,7 @@ class Paragraph(Block):
 
 @dataclass(frozen=True)
 class Contents(Block):
-    """The list of the sheet's parts; the exporters fill it in."""
+    """The list of the sheet's headings, which the exporter fills in."""
 
 
 @dataclass(frozen=True)
@@ -111,12 +111,12 @@ class Notes(Block):
 
 @dataclass(frozen=True)
 class Nomenclature(Block):
-    """Symbols, what they stand for and where they come from.
+    """Symbols, what they stand for and where they are introduced.
 
     Parameters
     ----------
     entries : sequence of (Tex, str or Tex or tuple, Ref)
-        Symbol, meaning and place.
+        Symbol, meaning, and the equation or table that introduces it.
     """
 
     entries: Sequence[tuple[Tex, Inline, Ref]]
@@ -131,7 +131,7 @@ class Notice(Block):
     heading : str
         One or two words.
     body : sequence of str or Tex or tuple
-        A paragraph each.
+        Its paragraphs.
     """
 
     heading: str

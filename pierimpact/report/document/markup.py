@@ -1,6 +1,6 @@
-"""What a document is made of, as data, and the pieces of its text.
+"""The parts of a document as data, and the pieces of its text.
 
-The templates lay it out; mathematics is LaTeX, which the exporters convert.
+The templates lay them out, and escape all text; mathematics is LaTeX, which the exporters convert.
 """
 
 import re
@@ -12,10 +12,10 @@ from pierimpact.units import Printed
 
 @dataclass(frozen=True)
 class Part:
-    """A part of a document."""
+    """A part of a document: data that the templates lay out."""
 
     def data(self) -> dict[str, Any]:
-        """Return what the templates lay out, as JSON can hold it: the part's kind and fields."""
+        """Return the part as JSON can hold it: its type and its fields."""
         return {"type": type(self).__name__} | {
             field.name: _plain(getattr(self, field.name)) for field in fields(self)
         }
@@ -24,7 +24,7 @@ class Part:
 def _plain(value: Any) -> Any:
     if isinstance(value, Part):
         return value.data()
-    if isinstance(value, dict):  # in pairs, as notebooks are stored with their keys sorted
+    if isinstance(value, dict):  # as pairs: a stored notebook has its keys sorted
         return [list(pair) for pair in value.items()]
     return [_plain(each) for each in value] if isinstance(value, (list, tuple)) else value
 
@@ -38,14 +38,14 @@ class Tex(Part):
 
 @dataclass(frozen=True)
 class Code(Part):
-    """Text to be typed or compared letter by letter."""
+    """Text in a typeface of fixed width, such as a file name or a checksum."""
 
     text: str
 
 
 @dataclass(frozen=True)
 class Link(Part):
-    """Text that leads to a file beside the page; on paper, the text alone."""
+    """A link to a file in the folder of the page; in the PDF, its text alone."""
 
     text: str
     file_name: str
@@ -53,7 +53,7 @@ class Link(Part):
 
 @dataclass(frozen=True)
 class Ref(Part):
-    """The name and number of an equation, table or figure, and the way to it."""
+    """A reference to an equation, table or figure, which prints as its name and number."""
 
     kind: str
     label: str

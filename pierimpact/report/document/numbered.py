@@ -1,6 +1,6 @@
 """The numbered blocks of a calculation sheet: tables, equations and figures.
 
-The exporters number them, in the order they come.
+The exporters number them in the order of the document.
 """
 
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ from typing import Any
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Part, tex_length
 
-#: What a line of a formula begins with that goes on with the line before it.
+#: Beginning of a line that continues the line of a formula before it.
 CONTINUED = r"\qquad"
 
 
@@ -21,11 +21,11 @@ class Column(Part):
     Parameters
     ----------
     heading : str or Tex or tuple
-        What it holds.
+        Its heading.
     align : {"left", "decimal"}, optional
-        Numbers are aligned at their decimal points.
+        Alignment; "decimal" has numbers with their decimal points in line.
     wide : bool, optional
-        Whether it takes the width that the others leave.
+        Whether it takes the width that the other columns leave.
     """
 
     heading: Inline
@@ -42,15 +42,15 @@ class Table(Block):
     label : str
         Anchor that text can refer to, such as "tab-inputs".
     caption : str or Tex or tuple
-        What it shows.
+        Caption.
     columns : sequence of Column
         Its columns.
     rows : sequence of sequences of str or Tex or tuple
         Its rows; the first cell of a row is its heading.
     strong : sequence of int, optional
-        Rows that matter most.
+        Indices of the rows in bold.
     centred : bool, optional
-        Whether cells are centred between the rows above and below, as tall formulas want it.
+        Whether cells are centred vertically, for tall formulas.
     """
 
     label: str
@@ -80,7 +80,7 @@ class Equation(Part):
     label : str
         Anchor that text can refer to, such as "eq-stiffness".
     name : str or Tex or tuple
-        What is calculated.
+        Name of the calculated quantity.
     symbol : str
         Left-hand side, in LaTeX.
     lines : sequence of str
@@ -95,22 +95,18 @@ class Equation(Part):
     lines: Sequence[str]
     source: Inline = ""
 
-    @property
-    def long(self) -> bool:
-        """Whether it wants the width of the page."""
-        return max(map(tex_length, self.lines)) > 48
+    def data(self) -> dict[str, Any]:
+        """Return the data, with the step as one formula, and whether it needs the page's width.
 
-    @property
-    def tex(self) -> str:
-        """The step in LaTeX; lines that are continued have no equals sign."""
+        Lines that are continued have no equals sign.
+        """
         lines = r" \\ ".join(
             f"& {line}" if line.startswith(CONTINUED) else f"&= {line}" for line in self.lines
         )
-        return rf"\begin{{aligned}} {self.symbol} {lines} \end{{aligned}}"
-
-    def data(self) -> dict[str, Any]:
-        """Return the data, with the step in LaTeX and whether it is long."""
-        return super().data() | {"tex": self.tex, "long": self.long}
+        return super().data() | {
+            "tex": rf"\begin{{aligned}} {self.symbol} {lines} \end{{aligned}}",
+            "long": max(map(tex_length, self.lines)) > 48,
+        }
 
 
 @dataclass(frozen=True)
@@ -120,7 +116,7 @@ class Steps(Block):
     Parameters
     ----------
     equations : sequence of Equation
-        The steps, in the order they are taken.
+        The steps, in the order of the calculation.
     """
 
     equations: Sequence[Equation]
@@ -135,9 +131,9 @@ class Figure(Block):
     label : str
         Anchor that text can refer to, such as "fig-history".
     caption : str or Tex or tuple
-        What it shows.
+        Caption.
     alt : str
-        What it shows, for those who cannot see it.
+        Description for readers who cannot see it.
     svg : str
         The drawing.
     """

@@ -1,0 +1,117 @@
+"""The blocks of a document as data, laid out in a notebook's cell, on the page and in the PDF."""
+
+import io
+import json
+import re
+
+import nbformat
+import pypdf
+import pytest
+from nbformat import v4
+from test_report import NASTY, Text, squeezed
+
+from pierimpact.report.document.blocks import (
+    Contents,
+    Headline,
+    Nomenclature,
+    Notes,
+    Notice,
+    Paragraph,
+    TitleBlock,
+)
+from pierimpact.report.document.markup import Code, Link, Ref, Tex
+from pierimpact.report.document.numbered import Column, Equation, Figure, Steps, Table
+from pierimpact.report.exporters import SheetHTMLExporter, SheetPDFExporter, notebook_of
+from pierimpact.units import Printed
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><path d="M0 0h9"/></svg>'
+RUN = (NASTY, Code(NASTY), Link(NASTY, NASTY), Tex("x < y"), Ref("Table", "tab-x"))
+EQUATION = Equation(label="eq-x", name=RUN, symbol="x", lines=["a < b"], source=NASTY)
+
+#: Every kind of block, and how often each prints the nasty text.
+BLOCKS = [
+    (
+        TitleBlock(
+            title=NASTY, subtitle=NASTY, entries={NASTY: NASTY}, date="2026-01-31", paper="a4"
+        ),
+        4,
+    ),
+    (Contents(), 0),
+    (Headline(results=[(NASTY, Printed(NASTY, NASTY), NASTY)]), 4),
+    (Paragraph(RUN), 3),
+    (Notes([RUN, NASTY]), 4),
+    (Nomenclature([(Tex("x"), RUN, Ref("Eq.", "eq-x"))]), 3),
+    (Notice(heading=NASTY, body=[RUN, NASTY]), 5),
+    (
+        Table(
+            label="tab-x",
+            caption=RUN,
+            columns=[Column(heading=RUN), Column(heading=NASTY, align="decimal")],
+            rows=[[RUN, NASTY], [NASTY, "1.5"]],
+            strong=[1],
+        ),
+        3 + 3 + 1 + 3 + 1 + 1,
+    ),
+    (Steps([EQUATION]), 4),
+    (Figure(label="fig-x", caption=RUN, alt=NASTY, svg=SVG), 3),
+]
+
+
+def shown(page):
+    return squeezed(Text(page).text).count(squeezed(NASTY))
+
+
+@pytest.mark.parametrize(("block", "count"), BLOCKS)
+def test_text_is_never_markup_in_a_cell(block, count):
+    cell = Text(block._repr_html_())
+    assert shown(block._repr_html_()) == count
+    assert not {"b", "script", "style"} & {tag for tag, _ in cell.tags}
+    names = {name for _, attributes in cell.tags for name in attributes}
+    assert names <= {"class", "id", "href", "scope", "alt", "src", "aria-label"}
+
+
+def test_text_is_never_markup_in_a_page_or_pdf():
+    notebook = notebook_of([block for block, _ in BLOCKS])
+    page, _ = SheetHTMLExporter().from_notebook_node(notebook)
+    assert shown(page) == sum(count for _, count in BLOCKS)
+    assert not {"b", "script"} & {tag for tag, _ in Text(page).tags}
+    pdf, _ = SheetPDFExporter().from_notebook_node(notebook)
+    text = "".join(page.extract_text() for page in pypdf.PdfReader(io.BytesIO(pdf)).pages)
+    assert (
+        squeezed(text.replace("\u200b", "")).count(squeezed(NASTY)) > 10
+    )  # side by side, lines mix
+
+
+@pytest.mark.parametrize(("block", "count"), BLOCKS)
+def test_a_block_is_json(block, count):
+    assert json.loads(json.dumps(block.data())) == block.data()
+
+
+def test_a_stored_notebook_gives_the_same_page():
+    entries = {"Project": "x", "Element": "y", "Checked by": "z"}
+    title = TitleBlock(title="x", subtitle="y", entries=entries, date="2026-03-01", paper="a4")
+    notebook = notebook_of([title, *(block for block, _ in BLOCKS[1:])])
+    stored = nbformat.reads(nbformat.writes(notebook), 4)
+    pages = [SheetHTMLExporter().from_notebook_node(each)[0] for each in (notebook, stored)]
+    assert pages[0] == pages[1]
+    assert re.findall("<dt>(.*?)</dt>", pages[0])[:3] == list(entries)
+
+
+def test_numbers_go_on_from_block_to_block():
+    second = Equation(label="eq-y", name="y", symbol="y", lines=["b"])
+    words = Paragraph((Ref("Eq.", "eq-y"), Ref("Table", "tab-x"), Ref("Table", "tab-absent")))
+    notebook = notebook_of([words, Steps([EQUATION, second]), BLOCKS[7][0]])
+    page, _ = SheetHTMLExporter().from_notebook_node(notebook)
+    assert re.findall(r'class="number">(.*?)<', page) == ["(1)", "(2)", "Table&nbsp;1."]
+    links = re.findall('<a href="#(.*?)">(.*?)</a>', page)
+    assert links[:3] == [
+        ("eq-y", "Eq.&nbsp;(2)"),
+        ("tab-x", "Table&nbsp;1"),
+        ("tab-absent", "Table"),
+    ]
+
+
+def test_a_notebook_without_a_title_block_has_a_pdf_too():
+    notebook = v4.new_notebook(cells=[v4.new_markdown_cell("# A lesson\n\nOn $x$.")])
+    pdf, _ = SheetPDFExporter().from_notebook_node(notebook)
+    assert "A lesson" in pypdf.PdfReader(io.BytesIO(pdf)).pages[0].extract_text()
