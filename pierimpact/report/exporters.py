@@ -87,7 +87,7 @@ class _SheetExporter(TemplateExporter):
     def _convert(self, blocks: list[dict[str, Any]]) -> None:
         """Add to prose and mathematics what one call of pandoc makes of them."""
         parts = [(part, text) for part in _parts(blocks) if (text := _markdown(part)) is not None]
-        converted = self._pandoc([text for _, text in parts])
+        converted = self._pandoc([text for _, text in parts]) if parts else []
         for (part, _), text in zip(parts, converted, strict=True):
             formula = part["type"] != "Prose"
             part["converted"] = text.removeprefix("<p>").removesuffix("</p>") if formula else text
