@@ -312,7 +312,8 @@ def test_the_summary_says_what_is_outside_the_study(tmp_path, units, words):
     page = "".join(block._repr_html_() for block in summary_blocks(rows))
     remarks = [row["remarks"] for row in csv.DictReader(io.StringIO(summary_csv(rows), newline=""))]
     assert (
-        re.search(r"speed [\d.]+ (km/h|mph) outside the studied", remarks[0])[1] == words.split()[1]
+        re.search(r"speed at first touch [\d.]+ (km/h|mph) outside the studied", remarks[0])[1]
+        == words.split()[1]
     )
     assert words in remarks[0]
     assert remarks[0] in html.unescape(page)

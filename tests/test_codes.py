@@ -76,7 +76,7 @@ def test_every_clause_has_the_amounts_typed_here():
 
 def test_what_is_not_sure_says_so():
     codes = code_forces(20.0, 8e3)
-    assert {code.along.certainty for code in codes} <= set(Certainty)
+    assert {code.along.status for code in codes} <= set(Certainty)
     for code in codes:
         for number in (code.along, code.across, code.height):
             if number is not None:

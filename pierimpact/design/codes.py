@@ -18,17 +18,17 @@ class Sourced(NamedTuple):
     """A value in SI units and how certain it is."""
 
     value: float
-    certainty: Certainty
+    status: Certainty
 
     @property
     def verified(self) -> bool:
         """Whether the value is cited in the source paper or was read in the code."""
-        return self.certainty.verified
+        return self.status.verified
 
     @property
     def remark(self) -> str:
         """What is printed beside the value."""
-        return self.certainty.standard_words
+        return self.status.standard_words
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,13 +160,13 @@ def en_1991_1_7_hard_impact(speed: float, mass: float, stiffness: float | None =
     InputError
         When a value is not positive.
     """
-    certainty = Certainty.SECONDARY if stiffness is None else Certainty.READ
-    used = Sourced(positive("stiffness", 300e3 if stiffness is None else stiffness), certainty)
+    status = Certainty.SECONDARY if stiffness is None else Certainty.READ
+    used = Sourced(positive("stiffness", 300e3 if stiffness is None else stiffness), status)
     force = positive("speed", speed) * math.sqrt(used.value * positive("mass", mass))
     return CodeForce(
         code="EN 1991-1-7, hard impact",
         clause="Annex C",
-        along=Sourced(force, certainty),
+        along=Sourced(force, status),
         stiffness=used,
         note="Informative, F = v √(k m). The formula was read in a public copy.",
     )
