@@ -26,7 +26,7 @@ from pierimpact.report.calculation import calculate
 from pierimpact.report.results import Results
 from pierimpact.report.summary import Row, no_formula, summary_blocks, summary_csv
 from pierimpact.report.write import Report, ReportError, stages
-from pierimpact.units import QUANTITIES, parse, printed
+from pierimpact.units import QUANTITIES, parse, printed, rounded
 
 ROOT = Path(__file__).parent.parent
 EXAMPLE = (ROOT / "notebooks" / "tti-column.yaml").read_text("utf-8") + "date: 2026-02-03\n"
@@ -302,6 +302,31 @@ def test_units_of_the_summary(tmp_path, systems):
             assert parse(column, f"{text} {match[2]}", kind) == pytest.approx(value, rel=1e-14)
             kinds[kind] += 1
     assert kinds == {"force": 4, "mass": 2, "speed": 2, "length": 2}
+
+
+def test_the_summary_leads_with_the_worst_of_the_cases(tmp_path):
+    rows = []
+    for name, speed, resistance, date in (
+        ("fast", "90 km/h", "9 MN", "2026-02-03"),
+        ("slow", "50 km/h", "1 MN", "2026-05-06"),
+        ("middle", "70 km/h", "9 MN", "2026-03-04"),
+    ):
+        changes = {"speed": speed, "shear_resistance": resistance, "date": date}
+        case = write_case(tmp_path / f"{name}.yaml", **changes)
+        rows.append(Row(name, calculate(read_case(case)), []))
+    title, headline, *_ = summary_blocks(rows)
+    cells = re.findall(
+        r'<dt>([^<]+)</dt><dd><span class="value">([^<]*)<.*?<span class="remark">([^<]*)',
+        headline.to_html(),
+    )
+    results = {row.name: row.calculation for row in rows}
+    force, shear = results["fast"].design_force, results["slow"].utilisations["shear"]
+    assert cells == [
+        ("Cases calculated", "3", "of 3"),
+        ("Largest design reaction", printed(force, "force", "SI").number, "fast"),
+        ("Largest utilisation", rounded(shear, 3), "slow, in shear"),
+    ]
+    assert "2026-05-06" in title.to_html()
 
 
 @pytest.mark.parametrize(("units", "words"), [("SI", "117 km/h"), ("US", "72.7 mph")])

@@ -509,6 +509,67 @@ def test_the_headline_repeats_what_is_calculated(calculated):
             assert cells[f"Utilisation in {name}"] == ratio
 
 
+def test_the_remarks_of_the_headline(calculated):
+    remarks = re.findall(
+        r'<dt>([^<]+)</dt><dd><span class="value">[^/]*</small></span><span class="remark">([^<]*)',
+        calculated.page,
+    )
+    remarks = {name: text.replace("\u202f", "") for name, text in remarks}
+    checks, peaks = calculated.numbers("tab-check"), calculated.numbers("tab-peaks")
+    model, procedure, ratio = checks["Governing"][:3]
+    decisive = "design procedure" if number(procedure) >= number(model) else "full model"
+    assert remarks["Design reaction"].endswith(decisive)
+    height, unit = re.search(r"([\d.]+) (m|ft)\b", remarks["Design reaction"]).groups()
+    assert number(height) * mathml.size(unit) == pytest.approx(calculated.values[("z_n",)][0])
+    shown = re.findall(r"([\d.]+) (?:kN|kip)", remarks["Design procedure"])
+    assert shown == [checks[n][1] for n in ("Engine", "Cargo") if checks[n][1] != "none"]
+    governs = next(name for name, row in peaks.items() if row[3] == "governs")
+    assert remarks["Full model"].startswith(governs.lower())
+    assert remarks["Full model"].endswith(f" {ratio}")
+    for symbol, (text, unit) in zip(
+        ("k_p", "m_p"), re.findall(r"([\d.]+) ([^\s,]+)", remarks["Pier frequency"]), strict=True
+    ):
+        found = calculated.values[(symbol,)][0] / mathml.size(unit)
+        close(found, text, 1e-4 * found, digits=5)  # itself rounded in another unit
+    if decisive == "design procedure":
+        of = {name: row[1] for name, row in checks.items() if name != "Governing"}
+        governs = next(name for name in of if of[name] == procedure)
+    assert f"The {governs.lower()} peak governs." in calculated.page
+
+
+def test_what_does_not_come_about_or_does_not_hold_is_said_first(calculated):
+    first = calculated.page[: calculated.page.index('class="contents"')]
+    peaks = calculated.numbers("tab-peaks")
+    assert ("The cargo does not reach" in first) == (peaks["Cargo"][0] == "none")
+    assert ("The engine does not reach" in first) == (peaks["Engine"][0] == "none")
+    ratios = {}
+    if "tab-utilisation" in calculated.page:
+        ratios = {name: row[3] for name, row in calculated.numbers("tab-utilisation").items()}
+    exceeded = [name for name, text in ratios.items() if text and number(text) > 1.0]
+    said = re.findall(r"The (\w+) is ([\d.]+) times the resistance", first)
+    assert said == [(name.lower(), ratios[name]) for name in exceeded]
+    assert "is illustrative" in first
+
+
+def test_the_codes_across_the_travel_are_half_of_those_along(calculated):
+    for name, row in calculated.numbers("tab-codes").items():
+        halved = name == "JTG D60" or (name.startswith("EN") and "hard" not in name)
+        assert (row[3] != "—") == halved
+        if halved:
+            close(0.5 * number(row[2]), row[3], half(row[2], 5), digits=5)
+
+
+def test_the_words_for_the_figure_of_sensitivity_have_its_ends(calculated):
+    words = re.search(r'id="fig-sensitivity"><img alt="([^"]+)"', calculated.page)[1]
+    words = re.sub(r"\s+", " ", words.replace("\u202f", ""))
+    found = re.findall(r"([\d.]+) (kN|kip) at ([\d.]+) (km/h|mph)", words)
+    for share, (force, unit, speed, speed_unit) in zip((0.5, 1.5), found, strict=True):
+        at = share * calculated.values[("V",)][0]
+        close(at / mathml.size(speed_unit), speed, 1e-4 * at / mathml.size(speed_unit))
+        solved = reference.solve(calculated.truck, calculated.pier, at)
+        close_to_model(float(np.fmax(solved.engine, solved.cargo)), force, mathml.size(unit))
+
+
 def unit_size(calculated, label, heading):
     """Return the size of the unit that a column of a table is headed with."""
     head = re.search(rf'id="{label}">.*?</thead>', calculated.page, re.DOTALL)[0]

@@ -1,4 +1,5 @@
 import asyncio
+import html
 import io
 import re
 
@@ -8,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from pierimpact import simulate, widgets
+from pierimpact import design_reaction, simulate, widgets
 from pierimpact.files.case import read_case_file
 from pierimpact.files.trucks import read_truck_file
 from pierimpact.teaching.explorer import PAUSE
@@ -86,6 +87,54 @@ def test_the_printed_peaks_are_those_of_the_model(full):
             assert "The cargo stops short" in shown or "Neither" in shown
         else:
             assert str(printed(history.cargo_peak.reaction, "force", "SI")) in shown
+
+
+def numbers_of(explorer):
+    """Return the named numbers of an explorer and what it says of them."""
+    text = explorer.views["readout"].widget.value
+    cells = re.findall(r'title="([^"]*)".*?font-weight:600[^>]*>([^<]*)<', text)
+    return dict(cells), html.unescape(re.sub("<[^>]+>", " ", text))
+
+
+def test_the_readout_of_a_collision(full):
+    full.reset()
+    full.set(speed=20.0, truck_mass=10e3)
+    strike = full.scenario()
+    cells, words = numbers_of(full)
+    assert cells["½ (m₁ + m₂) V²"] == "2.000 MJ"
+    assert cells["pier frequency"] == str(printed(strike.pier.frequency, "frequency", "SI"))
+    assert cells["pier stiffness"] == str(printed(strike.pier.stiffness, "stiffness", "SI"))
+    assert cells["pier mass"] == str(printed(strike.pier.mass, "mass", "SI"))
+    history = simulate(strike.truck, strike.pier, 20.0)
+    cargo = history.cargo_peak
+    governs = "cargo" if cargo and cargo.reaction > history.engine_peak.reaction else "engine"
+    assert f"The {governs} governs." in words
+    full.reset()
+
+
+def test_the_readout_of_the_pier():
+    explorer = widgets.pier()
+    scenario = explorer.scenario()
+    cells, words = numbers_of(explorer)
+    mass = 2400.0 * 0.25 * np.pi * 0.914**2 * 5.0
+    assert cells["mass per length times height"] == str(printed(mass, "mass", "SI"))
+    pier = scenario.pier
+    shares = [int(text) for text in re.findall(r"(\d+)%", words)]
+    rigidity = 25e9 / 2.4 * 0.9 * 0.25 * np.pi * 0.914**2  # κGA
+    forces = scenario.column.member_forces(1.0, 1.2)
+    shear = (1.2 * forces.base_force**2 + 3.8 * forces.top_force**2) / rigidity
+    assert shares == [round(100.0 * pier.mass / mass), round(100.0 * shear * pier.stiffness)]
+
+
+def test_the_design_over_the_full_model_in_words():
+    explorer = widgets.design()
+    strike = explorer.scenario()
+    design = design_reaction(strike.truck, strike.pier, strike.speed)
+    ratio = design.reaction / strike.history.governing_peak.reaction
+    _, words = numbers_of(explorer)
+    assert f"{ratio:.2f} of the full model" in words
+    assert f"The {design.governs} governs." in words
+    assert str(printed(design.reaction, "force", "SI")) in words
 
 
 def test_no_contact_is_said_in_a_sentence():
