@@ -86,8 +86,8 @@ class DesignReaction:
     @property
     def overlapping(self) -> bool:
         """Whether the cargo meets the pier before the engine lets go."""
-        gone = self.values.get("ringing_time", self.values["engine_time"])
-        return self.cargo is not None and self.values["cargo_time"] <= gone
+        engine_end = self.values.get("ringing_time", self.values["engine_time"])
+        return self.cargo is not None and self.values["cargo_time"] <= engine_end
 
     @property
     def given(self) -> tuple[DesignStep, ...]:
@@ -137,19 +137,15 @@ def design_reaction(
 
     Parameters
     ----------
-    truck : Truck
-        The truck.
-    pier : EquivalentPier
-        The pier.
-    speed : float
-        Speed of the truck at first touch [m/s].
+    truck, pier, speed
+        As in `Collision`.
     level : {"refined", "hand"}, optional
         Level of the formulas.
 
     Raises
     ------
     InputError
-        When the speed is not positive or the level unknown.
+        As in `Collision`, and when the level is unknown.
     """
     one_of("level", level, LEVELS)
     collision = Collision(truck, pier, speed)

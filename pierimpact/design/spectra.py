@@ -1,6 +1,5 @@
 """Engine and cargo spectra: reaction against pier frequency, by three routes."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +8,6 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.checks import one_of, positive, positive_array
 from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.collision.simulate import peak_reactions
-from pierimpact.design.formulas import amplification
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.pier.equivalent import stiffness_at_frequency
@@ -116,27 +114,24 @@ def _spectrum(
     stiffness = stiffness_at_frequency(pier_mass, frequency)
     peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)
     _, chunks = parameter_chunks(truck, pier_mass, stiffness, damping_ratio, speed)
-    two_degrees, closed_form = np.empty_like(frequency), np.empty_like(frequency)
+    found = np.empty((5, len(frequency)))
     for part, parameters in chunks:
-        two_degrees[part] = design_values(parameters, "hand", exact_amplification)[which]
-        closed_form[part] = design_values(parameters, level)[which]
-    mass, spring = (
-        (truck.engine_mass, truck.engine_spring)
-        if which == "engine"
-        else (truck.body_mass, truck.body_spring)
-    )
-    ratios = (
-        2.0 * math.pi * frequency / math.sqrt(spring.stiffness / mass),
-        mass / pier_mass,
-        spring.restitution,
-        damping_ratio,
-    )
+        exact = design_values(parameters, "hand", exact_amplification)
+        closed = design_values(parameters, "hand")
+        found[:, part] = (
+            exact[which],
+            design_values(parameters, level)[which],
+            exact[f"{which}_beta"],
+            exact[f"{which}_S"],
+            closed[f"{which}_S"],
+        )
+    two_degrees, closed_form, ratio, exact_S, closed_S = found
     return Spectrum(
         frequency=frequency,
-        full_model=peaks.engine if which == "engine" else peaks.cargo,
+        full_model=getattr(peaks, which),
         two_degrees=two_degrees,
         closed_form=closed_form,
-        frequency_ratio=ratios[0],
-        exact=exact_amplification(*ratios),
-        closed=amplification(*ratios),
+        frequency_ratio=ratio,
+        exact=exact_S,
+        closed=closed_S,
     )

@@ -28,9 +28,9 @@ Array = NDArray[np.float64]
 Summary = dict[str, float]
 
 SIZE, SEED = 6000, 20170101
-#: So many of the cases are also followed one by one, for the speeds at contact.
+#: So many of the collisions are also simulated one by one, for the speeds at contact.
 FOLLOWED = 1000
-#: So many cases are in the file one by one, so that anyone sees whether it is up to date.
+#: So many collisions are in the file one by one, so that anyone sees whether it is up to date.
 SHOWN = 20
 OUTCOME_FILE = Path(__file__).with_name("study.json")
 #: Arguments of the closed spectrum that are fitted, and the values in use.
@@ -72,13 +72,13 @@ def predictions(parameters: Parameters, level: str) -> Reactions:
 
 def with_truck(parameters: Parameters, truck: Truck) -> Parameters:
     """Return the collisions with another truck, the same in each."""
-    own = Collision(truck, EquivalentPier(mass=1.0, stiffness=1.0), 1.0).parameters
+    other = Collision(truck, EquivalentPier(mass=1.0, stiffness=1.0), 1.0).parameters
     same = np.ones_like(parameters.speed)
     return parameters._replace(
-        engine=Spring(*(same * x for x in own.engine)),
-        body=Spring(*(same * x for x in own.body)),
-        friction_force=same * own.friction_force,
-        on_pier=np.full(same.shape, own.on_pier),
+        engine=Spring(*(same * x for x in other.engine)),
+        body=Spring(*(same * x for x in other.body)),
+        friction_force=same * other.friction_force,
+        on_pier=np.full(same.shape, other.on_pier),
     )
 
 
@@ -158,19 +158,12 @@ def speed_errors(parameters: Parameters) -> dict[str, dict[str, Summary]]:
 
 def spectrum_arguments(parameters: Parameters) -> tuple[Array, Array, Array, Array]:
     """Return β, μ, e and ζ of every engine, followed by those of every cargo."""
-    omega = np.sqrt(parameters.pier_stiffness / parameters.pier_mass)
-    zeta = domain.values(parameters)["damping ratio"]
-    pairs = [
-        (
-            omega / np.sqrt(spring.stiffness / spring.mass),
-            spring.mass / parameters.pier_mass,
-            np.sqrt(spring.stiffness / spring.unloading_stiffness),
-            zeta,
-        )
-        for spring in (parameters.engine, parameters.body)
-    ]
-    beta, mu, e, zeta = (np.concatenate(pair) for pair in zip(*pairs, strict=True))
-    return beta, mu, e, zeta
+    values = design_values(parameters, "hand")
+    beta, mu, e = (
+        np.concatenate([values[f"{body}_{name}"] for body in ("engine", "cargo")])
+        for name in ("beta", "mu", "e")
+    )
+    return beta, mu, e, np.tile(values["zeta"], 2)
 
 
 def fit(arguments: tuple[Array, Array, Array, Array], exact: Array) -> dict[str, float]:
