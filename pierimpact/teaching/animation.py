@@ -52,20 +52,20 @@ class Animation:
 
     @cached_property
     def _frames(self) -> Array:
-        history, truck = self.scenario.history, self.scenario.truck
+        scenario, history = self.scenario, self.scenario.history
         pier = hermite(history.time, history.pier_displacement, history.pier_velocity, self.times)
         series = [
             history.engine_crush,
             history.body_crush,
-            _free_crush(truck.engine_spring, history.engine_crush),
-            _free_crush(truck.body_spring, history.body_crush),
+            _free_crush(scenario.truck.engine_spring, history.engine_crush),
+            _free_crush(scenario.truck.body_spring, history.body_crush),
             history.engine_force,
             history.body_force,
             history.engine_velocity,
             history.body_velocity,
         ]
         others = (np.interp(self.times, history.time, samples) for samples in series)
-        return np.array([self.times, pier, self.scenario.pier.stiffness * pier, *others]).T
+        return np.array([self.times, pier, scenario.pier.stiffness * pier, *others]).T
 
     @property
     def _exaggeration(self) -> float:
