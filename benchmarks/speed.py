@@ -25,6 +25,7 @@ from matplotlib.ticker import EngFormatter
 from tqdm import tqdm
 
 from pierimpact import EquivalentPier, design_reactions, load_truck, peak_reactions, simulate
+from pierimpact.pier.equivalent import stiffness_at_frequency
 
 HERE = Path(__file__).parent
 README = HERE.parent / "README.md"
@@ -32,7 +33,7 @@ sys.path.insert(0, str(HERE.parent / "tests"))  # the independent solutions of t
 
 TRUCK, SPEED, MASS, DAMPING = load_truck("single-unit-8t"), 80.0 / 3.6, 8e3, 0.05
 FREQUENCY = np.geomspace(2.0, 200.0, 1000)
-STIFFNESS = MASS * (2.0 * math.pi * FREQUENCY) ** 2
+STIFFNESS = stiffness_at_frequency(MASS, FREQUENCY)
 EVERY = slice(10, None, 20)  # the piers that the peers are given
 ACCURACY = 1e-6  # wanted of every peak
 OPENSEES_STEP = 1e-5  # [s]
@@ -129,7 +130,7 @@ def random_piers(count: int) -> dict[str, np.ndarray]:
     frequency = np.exp(random.uniform(math.log(2.0), math.log(200.0), count))
     return {
         "pier_mass": mass,
-        "pier_stiffness": mass * (2.0 * math.pi * frequency) ** 2,
+        "pier_stiffness": stiffness_at_frequency(mass, frequency),
         "damping_ratio": random.uniform(0.02, 0.07, count),
         "speed": random.uniform(50.0, 110.0, count) / 3.6,
     }
@@ -205,7 +206,7 @@ def spectrum_rows(exact: np.ndarray, ours: float) -> Iterator[Row]:
 
 def single_rows() -> Iterator[Row]:
     """Measure what is called once at a time."""
-    pier = EquivalentPier(mass=MASS, stiffness=MASS * (2.0 * math.pi * 30.0) ** 2)
+    pier = EquivalentPier.from_frequency(MASS, 30.0)
     yield Row(
         "one `simulate`", seconds(lambda: simulate(TRUCK, pier, SPEED), 300), "80 km/h, 30 Hz"
     )

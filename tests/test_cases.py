@@ -3,9 +3,9 @@ import math
 import numpy as np
 import pytest
 
-from pierimpact import EquivalentPier, InputError, load_truck
+from pierimpact import Collision, EquivalentPier, InputError, load_truck
 from pierimpact.collision.groups import CHUNK
-from pierimpact.collision.parameters import Collision, parameter_chunks
+from pierimpact.collision.parameters import parameter_chunks
 
 TRUCK = load_truck("single-unit-8t")
 
@@ -21,6 +21,21 @@ def test_one_collision_is_the_numbers_of_truck_pier_and_speed():
         20.0,
     )
     assert parameters.pier_damping == 2.0 * 0.04 * math.sqrt(284e6 * 8e3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"truck": "truck"}, "truck must be a Truck, got str"),
+        ({"pier": 8e3}, "pier must be an EquivalentPier, got float"),
+        ({"speed": 0.0}, "speed must be positive, got 0"),
+        ({"speed": None}, "speed must be a number, got None"),
+    ],
+)
+def test_what_is_no_collision(changes, message):
+    usual = {"truck": TRUCK, "pier": EquivalentPier(mass=8e3, stiffness=284e6), "speed": 20.0}
+    with pytest.raises(InputError, match=f"^{message}$"):
+        Collision(**(usual | changes))
 
 
 def test_many_collisions_keep_their_order_and_shape():

@@ -20,6 +20,27 @@ def test_frequency_and_damping_are_those_of_the_free_vibration(mass, stiffness, 
     assert roots[np.argmax(roots.imag)] == pytest.approx(expected, rel=1e-6)
 
 
+@settings(deadline=None, derandomize=True)
+@given(st.floats(1e3, 1e6), st.floats(1.0, 500.0), st.floats(0.0, 0.99))
+def test_a_pier_of_a_frequency_has_it(mass, frequency, damping_ratio):
+    pier = EquivalentPier.from_frequency(mass, frequency, damping_ratio)
+    assert (pier.mass, pier.damping_ratio) == (mass, damping_ratio)
+    assert pier.frequency == pytest.approx(frequency, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("mass", "frequency", "message"),
+    [
+        (0.0, 30.0, "mass must be positive, got 0"),
+        (8e3, 0.0, "frequency must be positive, got 0"),
+        ("heavy", 30.0, "mass must be a number, got 'heavy'"),
+    ],
+)
+def test_what_is_no_mass_or_frequency(mass, frequency, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        EquivalentPier.from_frequency(mass, frequency)
+
+
 def test_damping_ratio_by_default():
     assert EquivalentPier(mass=8e3, stiffness=284e6).damping_ratio == 0.05
 

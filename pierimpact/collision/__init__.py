@@ -1,7 +1,7 @@
 """The collision by the coupled mass-spring-damper (CMSD) model, propagated exactly.
 
-`regimes` says what holds between two changes and what a change brings; `coasting` passes the
-time in which nothing is coupled in closed form; `stepping` sums the coupled motion as its Taylor
-series and ends each step at the first change; `series` finds where that is; `groups` holds many
-collisions side by side. `simulate` is what callers use.
+`parameters` holds what strikes what; `regimes` the equations of motion and their changes;
+`coasting` covers uncoupled motion in closed form; `stepping` sums coupled motion as a Taylor series
+and ends each step at the first change of regime, which `series` locates; `groups` keeps many
+collisions side by side. Callers use `simulate`.
 """

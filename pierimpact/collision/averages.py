@@ -59,7 +59,7 @@ def largest_average_force(history: CollisionHistory, window: float) -> AverageFo
     rate = (np.interp(starts + window, time, force) - _before(starts, time, force)) / window
     best = int(np.argmax(average))
     found = AverageForce(float(average[best]), float(starts[best]))
-    # The crest lies where the rate passes zero, on one of the two sides of the best start.
+    # The maximum lies where the rate passes zero, on one of the two sides of the best start.
     for left in (best - 1, best):
         right = left + 1
         if left < 0 or right == len(starts) or not rate[left] > 0.0 > rate[right]:

@@ -7,7 +7,7 @@ for n collisions side by side.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -81,17 +81,8 @@ class Collision:
     @cached_property
     def parameters(self) -> Parameters:
         """The same as floats."""
-        truck, pier = self.truck, self.pier
-        return Parameters(
-            engine=_spring(truck.engine_mass, truck.engine_spring),
-            body=_spring(truck.body_mass, truck.body_spring),
-            friction_force=truck.friction_force,
-            on_pier=truck.friction_on == "pier",
-            pier_mass=pier.mass,
-            pier_stiffness=pier.stiffness,
-            pier_damping=pier.damping,
-            speed=self.speed,
-        )
+        pier = self.pier
+        return _parameters(_row(self.truck), pier.mass, pier.stiffness, pier.damping, self.speed)
 
 
 def parameter_chunks(
@@ -125,7 +116,8 @@ def parameter_chunks(
         shapes = {"truck": which.shape} | {name: x.shape for name, x in inputs.items()}
         listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise InputError(f"shapes must broadcast against each other, got {listed}") from None
-    return which.shape, _chunks(_table(trucks), which, arrays)
+    table = np.array([_row(item) for item in trucks]).reshape(-1, 12).T
+    return which.shape, _chunks(table, which, arrays)
 
 
 def in_chunks(parameters: Parameters) -> Iterator[Parameters]:
@@ -141,34 +133,19 @@ def _chunks(
     mass, stiffness, ratio, speed = (array.reshape(-1) for array in arrays)
     for first in range(0, len(which), CHUNK):
         part = slice(first, first + CHUNK)
-        columns = table[:, which[part]]
-        yield (
-            part,
-            Parameters(
-                engine=Spring(*columns[0:5]),
-                body=Spring(*columns[5:10]),
-                friction_force=columns[10],
-                on_pier=columns[11] > 0.0,
-                pier_mass=mass[part],
-                pier_stiffness=stiffness[part],
-                pier_damping=damping_coefficient(mass[part], stiffness[part], ratio[part]),
-                speed=speed[part],
-            ),
-        )
+        damping = damping_coefficient(mass[part], stiffness[part], ratio[part])
+        numbers = mass[part], stiffness[part], damping, speed[part]
+        yield part, _parameters(table[:, which[part]], *numbers)
 
 
-def _table(trucks: Sequence[Truck]) -> NDArray[np.float64]:
-    """Return one column a truck: both springs, friction force, and 1 for friction on the pier."""
-    rows = [
-        (
-            *_spring(truck.engine_mass, truck.engine_spring),
-            *_spring(truck.body_mass, truck.body_spring),
-            truck.friction_force,
-            float(truck.friction_on == "pier"),
-        )
-        for truck in trucks
-    ]
-    return np.array(rows).reshape(-1, 12).T
+def _row(truck: Truck) -> tuple[float, ...]:
+    """Return a truck as numbers: springs, friction force, and 1 for friction on the pier."""
+    return (
+        *_spring(truck.engine_mass, truck.engine_spring),
+        *_spring(truck.body_mass, truck.body_spring),
+        truck.friction_force,
+        float(truck.friction_on == "pier"),
+    )
 
 
 def _spring(mass: float, spring: CrushSpring) -> Spring:
@@ -179,3 +156,9 @@ def _spring(mass: float, spring: CrushSpring) -> Spring:
         spring.stiffness,
         spring.unloading_stiffness,
     )
+
+
+def _parameters(truck: Any, *pier_and_speed: Real) -> Parameters:
+    """Return parameters from the numbers of a truck, or of many side by side."""
+    engine, body, friction_force, on_pier = truck[:5], truck[5:10], truck[10], truck[11] > 0.0
+    return Parameters(Spring(*engine), Spring(*body), friction_force, on_pier, *pier_and_speed)

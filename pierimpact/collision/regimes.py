@@ -64,14 +64,10 @@ class State(NamedTuple):
     cargo_peak: Real  # largest x_p from cargo contact on
     cargo_peak_time: Real
 
-    @property
-    def after_cargo_contact(self) -> Flag:
-        """Whether the cargo has met the pier."""
-        return self.cargo_contact == self.cargo_contact
-
     def peak(self, ops: Ops) -> Real:
         """Return the largest x_p so far, of those before or those from cargo contact on."""
-        return ops.where(self.after_cargo_contact, self.cargo_peak, self.engine_peak)
+        contact = self.cargo_contact
+        return ops.where(contact == contact, self.cargo_peak, self.engine_peak)
 
 
 class LinearMotion(NamedTuple):
@@ -192,8 +188,8 @@ def raise_peak(state: State, xp: Real, time: Real, counts: Flag, ops: Ops) -> St
     counts = counts & (xp > state.peak(ops) + PEAK_TOLERANCE * abs(xp))
     if not ops.some(counts):
         return state
-    after = state.after_cargo_contact
-    raises, raises_cargo = counts & ops.negate(after), counts & after
+    cargo_in_contact = state.cargo_contact == state.cargo_contact
+    raises, raises_cargo = counts & ops.negate(cargo_in_contact), counts & cargo_in_contact
     return state._replace(
         engine_peak=where(raises, xp, state.engine_peak),
         engine_peak_time=where(raises, time, state.engine_peak_time),

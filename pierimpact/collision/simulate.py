@@ -25,12 +25,8 @@ def simulate(
 
     Parameters
     ----------
-    truck : Truck
-        The truck.
-    pier : EquivalentPier
-        The pier.
-    speed : float
-        Speed of the truck at first touch [m/s].
+    truck, pier, speed
+        As in `Collision`.
     duration : float, optional
         Time that the history covers at least [s]. It always goes on until no later instant can
         raise a peak or bring a first contact.
@@ -43,8 +39,7 @@ def simulate(
     Raises
     ------
     InputError
-        When the speed is not positive, the duration is negative, or `truck` or `pier` is of
-        another type.
+        As in `Collision`, and when the duration is negative.
     """
     collision, duration = Collision(truck, pier, speed), not_negative("duration", duration)
     steps: list[RecordedStep] = []

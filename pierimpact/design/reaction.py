@@ -83,8 +83,8 @@ class DesignReaction:
     @property
     def overlapping(self) -> bool:
         """Whether the cargo meets the pier before the engine lets go."""
-        gone = self.values.get("tJ", self.values["t1"])
-        return self.cargo is not None and self.values["t2"] <= gone
+        engine_end = self.values.get("tJ", self.values["t1"])
+        return self.cargo is not None and self.values["t2"] <= engine_end
 
     @property
     def calculation(self) -> Calculation:
@@ -138,12 +138,8 @@ def design_reaction(
 
     Parameters
     ----------
-    truck : Truck
-        The truck.
-    pier : EquivalentPier
-        The pier.
-    speed : float
-        Speed of the truck at first touch [m/s].
+    truck, pier, speed
+        As in `Collision`.
     level : {"short", "long"}, optional
         Level of the procedure: the method to follow by hand, or the one to see why. "hand" and
         "refined" are other names of the two.
@@ -151,7 +147,7 @@ def design_reaction(
     Raises
     ------
     InputError
-        When the speed is not positive or the level unknown.
+        As in `Collision`, and when the level is unknown.
     """
     collision = Collision(truck, pier, speed)
     found = design_values(collision.parameters, level)

@@ -86,16 +86,12 @@ def sensitivity(
 
     Parameters
     ----------
-    truck : Truck
-        The truck.
+    truck, pier, speed
+        As in `Collision`; the pier is the column as struck at the impact height.
     column : PierColumn
         The column.
-    pier : EquivalentPier
-        The column as struck at the impact height.
     impact_height : float
         Nominal impact height [m].
-    speed : float
-        Speed of the truck at first touch [m/s].
     """
 
     def at_speed(value: float) -> Collision | None:

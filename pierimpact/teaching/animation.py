@@ -52,20 +52,20 @@ class Animation:
 
     @cached_property
     def _frames(self) -> Array:
-        history, truck = self.scenario.history, self.scenario.truck
+        scenario, history = self.scenario, self.scenario.history
         pier = hermite(history.time, history.pier_displacement, history.pier_velocity, self.times)
         series = [
             history.engine_crush,
             history.body_crush,
-            _free_crush(truck.engine_spring, history.engine_crush),
-            _free_crush(truck.body_spring, history.body_crush),
+            _free_crush(scenario.truck.engine_spring, history.engine_crush),
+            _free_crush(scenario.truck.body_spring, history.body_crush),
             history.engine_force,
             history.body_force,
             history.engine_velocity,
             history.body_velocity,
         ]
         others = (np.interp(self.times, history.time, samples) for samples in series)
-        return np.array([self.times, pier, self.scenario.pier.stiffness * pier, *others]).T
+        return np.array([self.times, pier, scenario.pier.stiffness * pier, *others]).T
 
     @property
     def _exaggeration(self) -> float:
@@ -80,13 +80,15 @@ class Animation:
         engine, cargo = history.engine_contact_time, history.cargo_contact_time
         t = frame.time
         if frame.engine_force <= 0.0 and frame.body_force <= 0.0:
-            return "First touch." if t == 0.0 else "The truck has let go: the pier swings freely."
+            return (
+                "First touch." if t == 0.0 else "The truck has separated: the pier vibrates freely."
+            )
         if cargo is not None and t >= cargo and frame.body_force > 0.0:
             return "The cargo is against the pier."
         if engine is not None and t >= engine and frame.engine_force > 0.0:
             return "The engine block is against the pier."
         if engine is not None and t >= engine:
-            return "The engine is done; the body crumples on, and the pier rings."
+            return "The engine has rebounded; the body still crumples, and the pier vibrates."
         return "Sheet metal crumples: two plateau forces push the pier."
 
 
@@ -100,7 +102,7 @@ def _moments(scenario: Scenario) -> list[float]:
 
 
 def _free_crush(spring: CrushSpring, crush: Array) -> Array:
-    """Return the crush that stays when a spring is let go, at each sample of its crush."""
+    """Return the crush that remains when a spring is unloaded, at each sample of its crush."""
     largest = np.maximum.accumulate(crush)
     left: Array = np.maximum(largest - spring.envelope(largest) / spring.unloading_stiffness, 0.0)
     return np.maximum(crush, left)

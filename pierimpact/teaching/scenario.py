@@ -44,19 +44,7 @@ class Curves(NamedTuple):
 
 @lru_cache(maxsize=16)
 def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -> Curves:
-    """Return the spectra of one truck and speed for piers of one mass and damping.
-
-    Parameters
-    ----------
-    truck : Truck
-        The truck.
-    speed : float
-        Speed at first touch [m/s].
-    pier_mass : float
-        Equivalent mass of the pier [kg].
-    damping_ratio : float
-        Damping ratio of the pier [-].
-    """
+    """Return both spectra of a truck; arguments as in `engine_spectrum`."""
     stiffness = stiffness_at_frequency(pier_mass, FREQUENCIES)
     peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)
     _, chunks = parameter_chunks(truck, pier_mass, stiffness, damping_ratio, speed)

@@ -84,9 +84,9 @@ class CrushSpring:
         return envelope
 
     def dissipated(self, largest_crush: ArrayLike) -> NDArray[np.float64]:
-        """Energy lost for good by crushing to `largest_crush` and letting go.
+        """Energy dissipated by crushing to `largest_crush` and unloading.
 
-        The area under the envelope less the triangle that unloading gives back.
+        The area under the envelope less the triangle that is recovered on unloading.
 
         Parameters
         ----------

@@ -24,7 +24,7 @@ QUESTIONS = (
             Trap(lambda: _beta("cargo"), ENGINE_NOT_CARGO),
             Trap(lambda: 1.0 / _beta("engine"), "β has the pier’s frequency above the engine’s."),
         ),
-        reason="Below 1 the pier is slow: it feels the engine’s blow as an impulse.",
+        reason="Below 1 the pier is slow: it feels the engine’s impact as an impulse.",
     ),
     Question(
         words=f"The engine meets the pier at 50 km/h. What is v₁ √(k₁ m₁), the largest force of "
