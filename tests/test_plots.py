@@ -18,12 +18,13 @@ from pierimpact.plots import (
     spectrum,
 )
 from pierimpact.plots.style import BODIES
-from pierimpact.teaching import theory
+from pierimpact.teaching import explorer_data
 from pierimpact.teaching.animation import Animation
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.units import printed
 
 USUAL = Scenario()
+NAMES = [parameter.meaning for parameter in explorer_data.PARAMETERS]
 SPEEDS = [20.0, 45.0, 80.0, 130.0]  # km/h: no contact, engine alone, both, both
 
 
@@ -110,7 +111,7 @@ def test_a_spectrum_and_the_piers_place_on_it(body, speed):
 
 
 def test_amplification_with_one_pier():
-    curves = theory.amplifications((0.09, 0.9), (0.4, 0.5), 0.05)["cargo"]
+    curves = explorer_data.amplifications((0.09, 0.9), (0.4, 0.5), 0.05)["cargo"]
     axes = amplification.amplification_panel(Figure(figsize=(4, 3)), "cargo")
     amplification.draw_amplification(axes, curves, body="cargo")
     drawn = [line.get_ydata() for line in axes.lines]
@@ -123,7 +124,7 @@ def test_amplification_with_one_pier():
 
 
 def test_the_limits_of_the_amplification_are_met():
-    for curves in theory.amplifications((0.001, 0.01), (0.4, 0.5), 0.02).values():
+    for curves in explorer_data.amplifications((0.001, 0.01), (0.4, 0.5), 0.02).values():
         soft, stiff = curves.ratio < 0.05, curves.ratio > 40.0
         assert curves.exact[soft] == pytest.approx(curves.impulse[soft], rel=0.05)
         assert curves.exact[stiff] == pytest.approx(curves.static[stiff], rel=0.05)
@@ -143,7 +144,7 @@ def test_the_shape_passes_through_one_at_the_impact(top):
 
 def test_stiffness_and_mass_along_a_column_are_those_of_the_impact():
     column = USUAL.column
-    along = theory.by_height(column)
+    along = explorer_data.by_height(column)
     for place in (3, 20, 44):
         struck = column.struck_at(float(along.height[place]))
         assert along.stiffness[place] == struck.stiffness
@@ -155,7 +156,7 @@ def test_stiffness_and_mass_along_a_column_are_those_of_the_impact():
 
 
 def test_bars_are_as_long_as_their_forces():
-    bars = theory.bars(at_speed(45.0))  # where the cargo makes no peak
+    bars = explorer_data.bars(at_speed(45.0))  # where the cargo makes no peak
     axes = comparison.bars_panel(Figure(figsize=(6, 3)), [bar.name for bar in bars])
     comparison.draw_bars(axes, bars)
     assert [patch.get_width() for patch in axes.patches] == [
@@ -170,8 +171,8 @@ def test_bars_are_as_long_as_their_forces():
 
 @pytest.mark.parametrize("body", BODIES)
 def test_influences_to_either_side(body):
-    changes = theory.influences(USUAL)[body]
-    axes = influence.influence_panel(Figure(figsize=(4, 3)), "T", theory.PARAMETERS, 0.3)
+    changes = explorer_data.influences(USUAL)[body]
+    axes = influence.influence_panel(Figure(figsize=(4, 3)), "T", NAMES, 0.3)
     influence.draw_influence(axes, changes, body=body)
     widths = np.array([patch.get_width() for patch in axes.patches]).reshape(2, -1).T
     assert widths == pytest.approx(changes)
@@ -179,21 +180,21 @@ def test_influences_to_either_side(body):
 
 
 def test_a_peak_that_is_not_there_has_no_influences():
-    changes = theory.influences(at_speed(45.0))
+    changes = explorer_data.influences(at_speed(45.0))
     assert changes["cargo"] is None
-    axes = influence.influence_panel(Figure(figsize=(4, 3)), "T", theory.PARAMETERS, 0.3)
+    axes = influence.influence_panel(Figure(figsize=(4, 3)), "T", NAMES, 0.3)
     influence.draw_influence(axes, None, body="cargo")
     assert words(axes) == ["The cargo does not reach the pier."]
 
 
 def test_influences_are_those_of_another_simulation():
-    changes = theory.influences(USUAL)
+    changes = explorer_data.influences(USUAL)
     heavier = Scenario(engine_mass=1.3 * USUAL.engine_mass)
     # The explorer's truck keeps its total mass, the influence its body's.
     heavier = Scenario(
         engine_mass=heavier.engine_mass, truck_mass=USUAL.truck_mass + 0.3 * USUAL.engine_mass
     )
-    row = theory.PARAMETERS.index("Engine mass $m_1$")
+    row = NAMES.index("engine mass")
     ratio = heavier.history.engine_peak.reaction / USUAL.history.engine_peak.reaction
     assert changes["engine"][row, 1] == pytest.approx(ratio - 1.0, rel=1e-6)
 
