@@ -20,18 +20,22 @@ def rows(table):
 
 def test_the_truck_parameters_are_those_of_the_file():
     file = tomllib.loads((shipped("trucks") / "single-unit-8t.toml").read_text("utf-8"))
-    expected = {}
-    for name, entry in file.items():
-        if isinstance(entry, dict):
-            label = name.replace("_", " ")
-            parts = (
-                {label: entry}
-                if "value" in entry
-                else {
-                    f"{label}: {part.replace('_', ' ')}": values for part, values in entry.items()
-                }
-            )
-            expected |= parts
+    names = {
+        "engine_mass": "Engine mass",
+        "body_mass": "Mass of body and cargo",
+        "friction_force": "Friction force on the body",
+        "friction_on": "Friction acts against the",
+    }
+    expected = {label: file[name] for name, label in names.items()}
+    laws = {
+        "plateau_force": "Plateau force",
+        "plateau_length": "Plateau length",
+        "stiffness": "Steep stiffness",
+        "unloading_stiffness": "Unloading stiffness",
+    }
+    for body in ("engine", "body"):
+        for name, label in laws.items():
+            expected[f"{label} of the {body} spring"] = file[f"{body}_spring"][name]
     heads, *found = rows(truck_parameters())
     assert heads == ["Parameter", "Value", "Status", "Source"]
     assert {row[0] for row in found} == set(expected)

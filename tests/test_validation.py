@@ -58,7 +58,7 @@ def test_the_notebook_is_on_cases_that_were_not_fitted():
     assert Validation().seed != study.SEED
 
 
-@pytest.mark.parametrize("level", ["refined", "hand"])
+@pytest.mark.parametrize("level", ["long", "short"])
 @pytest.mark.parametrize("which", ["engine", "cargo", "governing"])
 def test_tables_by_band(validation, level, which):
     case, exact = validation._case, validation._exact
@@ -74,7 +74,7 @@ def test_tables_by_band(validation, level, which):
 
 def test_a_band_without_cases_shows_no_numbers():
     few = Validation(size=3, seed=0)
-    rows = few.bands("hand", "cargo").rows
+    rows = few.bands("short", "cargo").rows
     empty = [row for row in rows if row[1] == "0"]
     assert empty
     assert all(set(row[2:]) == {"–"} for row in empty)
@@ -82,33 +82,33 @@ def test_a_band_without_cases_shows_no_numbers():
 
 def test_other_tables(validation):
     limits = numbers(validation.domain_table())
-    assert limits["Speed"] == {"From": 50.0, "To": 110.0}
+    assert limits["Speed at first touch"] == {"From": 50.0, "To": 110.0}
     spectrum = numbers(validation.spectrum())
     assert 1.0 < spectrum["Engine"]["Mean"] < 1.1
     speeds = numbers(validation.contact_speeds())
-    assert set(speeds) == {"Engine, refined", "Cargo, refined", "Engine, hand", "Cargo, hand"}
-    assert abs(speeds["Engine, refined"]["Mean"]) < 0.05
+    assert set(speeds) == {"Engine, long", "Cargo, long", "Engine, short", "Cargo, short"}
+    assert abs(speeds["Engine, long"]["Mean"]) < 0.05
 
 
 def test_tables_outside_the_domain(validation):
     trucks = numbers(validation.trucks([TRUCK.with_mass(36e3), TRACTOR_TRAILER]))
     assert list(trucks) == [
-        "single-unit-8t, 36 t, refined",
-        "single-unit-8t, 36 t, hand",
-        "tractor-trailer-36t, 36 t, refined",
-        "tractor-trailer-36t, 36 t, hand",
+        "single-unit-8t, 36 t, short",
+        "single-unit-8t, 36 t, long",
+        "tractor-trailer-36t, 36 t, short",
+        "tractor-trailer-36t, 36 t, long",
     ]
     for row in trucks.values():
         assert 0.95 < row["Mean"] < 1.1
     # What the notebook's prose says of each.
     beyond = numbers(validation.beyond())
-    assert beyond["Pier frequency 3–5 Hz, refined"]["Mean"] > 1.1
-    assert beyond["Damping 0–2 %, hand"]["1st percentile"] < 0.88
-    assert beyond["Damping 0–2 %, refined"]["1st percentile"] > 0.9
-    assert beyond["Damping 7–20 %, refined"]["1st percentile"] > 0.93
-    assert beyond["Cargo four times as near, refined"]["1st percentile"] < 0.8
+    assert beyond["Pier frequency 3–5 Hz, long"]["Mean"] > 1.1
+    assert beyond["Damping 0–2 %, short"]["1st percentile"] < 0.88
+    assert beyond["Damping 0–2 %, long"]["1st percentile"] > 0.9
+    assert beyond["Damping 7–20 %, long"]["1st percentile"] > 0.93
+    assert beyond["Cargo four times as near, long"]["1st percentile"] < 0.8
     for speed in ("30–50", "110–160"):
-        assert 0.98 < beyond[f"Speed {speed} km/h, refined"]["Mean"] < 1.06
+        assert 0.98 < beyond[f"Speed {speed} km/h, long"]["Mean"] < 1.06
 
 
 # Figures
@@ -123,8 +123,8 @@ def drawings():
     return {
         "amplification": spectrum_figures.draw_amplification([0.02, 1.0], 0.4, 0.05),
         "routes": spectrum_figures.draw_routes(engine, cargo, "US"),
-        "scatter": validation.scatter("hand").svg,
-        "ratios": validation.ratios("refined").svg,
+        "scatter": validation.scatter("short").svg,
+        "ratios": validation.ratios("long").svg,
     }
 
 
@@ -140,11 +140,11 @@ def test_figures_are_the_same_bytes_every_time_and_whole_in_themselves():
 
 
 def test_alternative_texts_say_what_there_is_to_see(validation):
-    assert "400 collisions" in validation.scatter("refined").alt
+    assert "400 collisions" in validation.scatter("long").alt
     ratio = study.summary(
-        study.predictions(validation._case, "refined").governing / validation._exact.governing
+        study.predictions(validation._case, "long").governing / validation._exact.governing
     )
-    assert f"{ratio['mean']:.3f} times" in validation.ratios("refined").alt
+    assert f"{ratio['mean']:.3f} times" in validation.ratios("long").alt
     figure = routes(TRUCK, 80 / 3.6, 20e3)
     highest = np.nanmax(cargo_spectrum(TRUCK, 80 / 3.6, 20e3).full_model)
     assert f"cargo {highest / 1e6:.2f} MN" in figure.alt

@@ -1,6 +1,6 @@
-"""What stands behind the explorers and the exercises of the teaching notebooks.
+"""The explorers and exercises of the teaching notebooks.
 
-`scenario` and `theory` compute, `animation` turns a collision into frames, `readouts` says it in
-numbers and sentences, `live` redraws figures, `explorer` joins them to sliders. `checker` and
-`questions` are the exercises.
+`scenario` and `explorer_data` compute, `animation` turns a collision into frames, `readouts` puts
+it in numbers and sentences, `live` redraws figures, `explorer` joins them to the controls.
+`checker` and `questions` are the exercises, `markup` is the HTML of all of them.
 """

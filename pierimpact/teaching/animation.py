@@ -1,4 +1,4 @@
-"""The collision in slow motion: what its picture shows, instant by instant."""
+"""The collision in slow motion, frame by frame."""
 
 import math
 from functools import cached_property
@@ -36,12 +36,12 @@ class Animation:
         return int(np.argmin(np.abs(self.times - time)))
 
     def frame(self, index: int) -> Frame:
-        """Return what moves, at one frame."""
+        """Return the moving parts of the picture at one frame."""
         return Frame(*self._frames[index].tolist())
 
     @cached_property
     def scene(self) -> Scene:
-        """What stays."""
+        """The fixed parts of the picture."""
         scenario = self.scenario
         return Scene(
             truck=scenario.truck,
@@ -52,44 +52,43 @@ class Animation:
 
     @cached_property
     def _frames(self) -> Array:
-        scenario, history = self.scenario, self.scenario.history
+        history, truck = self.scenario.history, self.scenario.truck
         pier = hermite(history.time, history.pier_displacement, history.pier_velocity, self.times)
         series = [
             history.engine_crush,
             history.body_crush,
-            _free_crush(scenario.truck.engine_spring, history.engine_crush),
-            _free_crush(scenario.truck.body_spring, history.body_crush),
+            _free_crush(truck.engine_spring, history.engine_crush),
+            _free_crush(truck.body_spring, history.body_crush),
             history.engine_force,
             history.body_force,
             history.engine_velocity,
             history.body_velocity,
         ]
         others = (np.interp(self.times, history.time, samples) for samples in series)
-        return np.array([self.times, pier, scenario.pier.stiffness * pier, *others]).T
+        return np.array([self.times, pier, self.scenario.pier.stiffness * pier, *others]).T
 
     @property
     def _exaggeration(self) -> float:
-        """How many times larger the pier's movement is drawn, a round number."""
+        """Scale to which the pier's displacement is drawn, a round number."""
         raw = SWING / float(np.abs(self.scenario.history.pier_displacement).max())
         unit = 10.0 ** math.floor(math.log10(raw))
         return max(unit * n for n in (1.0, 2.0, 5.0) if unit * n <= raw * 1.001)
 
     def phase(self, frame: Frame) -> str:
-        """Say what is going on at a frame."""
+        """Return the phase of the collision at a frame, as a sentence."""
         history = self.scenario.history
         engine, cargo = history.engine_contact_time, history.cargo_contact_time
         t = frame.time
         if frame.engine_force <= 0.0 and frame.body_force <= 0.0:
-            return (
-                "First touch." if t == 0.0 else "The truck has separated: the pier vibrates freely."
-            )
+            after = "The truck has separated from the pier, which vibrates freely."
+            return "First touch." if t == 0.0 else after
         if cargo is not None and t >= cargo and frame.body_force > 0.0:
-            return "The cargo is against the pier."
+            return "The cargo is in contact with the pier."
         if engine is not None and t >= engine and frame.engine_force > 0.0:
-            return "The engine block is against the pier."
+            return "The engine block is in contact with the pier."
         if engine is not None and t >= engine:
-            return "The engine has rebounded; the body still crumples, and the pier vibrates."
-        return "Sheet metal crumples: two plateau forces push the pier."
+            return "The engine has rebounded; the body is still crushing, and the pier vibrates."
+        return "Sheet metal is crushing: two plateau forces push the pier."
 
 
 def _moments(scenario: Scenario) -> list[float]:
@@ -102,7 +101,7 @@ def _moments(scenario: Scenario) -> list[float]:
 
 
 def _free_crush(spring: CrushSpring, crush: Array) -> Array:
-    """Return the crush that remains when a spring is unloaded, at each sample of its crush."""
+    """Return the crush that remains if the spring is unloaded, at each sample of its crush."""
     largest = np.maximum.accumulate(crush)
     left: Array = np.maximum(largest - spring.envelope(largest) / spring.unloading_stiffness, 0.0)
     return np.maximum(crush, left)

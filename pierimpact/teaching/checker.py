@@ -10,7 +10,7 @@ from pierimpact.units import parse
 
 
 class Trap(NamedTuple):
-    """A wrong answer that is likely, computed, and what to say to it."""
+    """A likely wrong answer, computed, and the hint for it."""
 
     value: Callable[[], float]
     hint: str
@@ -27,15 +27,15 @@ class Question:
     answer : callable
         Returns the answer in SI units, or the right one of `choices`.
     dimension : str, optional
-        What the answer must be, as in `pierimpact.units`; empty for a plain number.
+        Dimension of the answer, as in `pierimpact.units`; empty for a plain number.
     tolerance : float, optional
         Largest relative error that counts as right [-].
     traps : tuple of Trap, optional
         Likely wrong answers.
     choices : tuple of str, optional
-        What there is to choose from.
+        The answers to choose from.
     reason : str, optional
-        What to say once it is solved.
+        An explanation, shown once it is solved.
     """
 
     words: str
@@ -48,13 +48,13 @@ class Question:
 
 
 class Verdict(NamedTuple):
-    """What the checker says; `right` is None where there was nothing to check."""
+    """The result of a check; `right` is None where there was nothing to check."""
 
     right: bool | None
     words: str
 
 
-#: Factors by which answers are often out, and what to ask then.
+#: Factors by which answers are often wrong, with a hint for each.
 _FACTORS = (
     (1e3, "You are out by 1000: {unit}?"),
     (1e6, "You are out by a million: {unit}?"),
@@ -62,7 +62,7 @@ _FACTORS = (
     (3.6**2, "You are out by 3.6²: was the speed that you squared in m/s?"),
     (9.9, "You are out by about 10: a slipped decimal point, or a mass for a weight?"),
     (2.0 * math.pi, "You are out by 2π: circular frequency ω or frequency f?"),
-    (2.0, "You are out by 2: look for a missing or a surplus half."),
+    (2.0, "You are out by 2: look for a missing or an extra factor ½."),
     (4.0, "You are out by 4: is something squared, or not, that should be?"),
 )
 _UNIT_PAIRS = {
@@ -77,14 +77,14 @@ _UNIT_PAIRS = {
 
 
 def check(question: Question, given: str) -> Verdict:
-    """Return what to say to an answer.
+    """Return whether an answer is right, with a reply.
 
     Parameters
     ----------
     question : Question
         The question.
     given : str
-        What was typed or chosen.
+        The text typed or the choice made.
     """
     if not given.strip():
         return Verdict(None, "Type your answer first.")
@@ -92,7 +92,7 @@ def check(question: Question, given: str) -> Verdict:
     if isinstance(answer, str):
         if given == answer:
             return Verdict(True, f"Right. {question.reason}".strip())
-        return Verdict(False, "Not that one. Look again at what stands above, and try it there.")
+        return Verdict(False, "Not that one. Try it in the explorer above.")
     try:
         value = _value(question, given)
     except InputError as error:

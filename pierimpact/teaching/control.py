@@ -14,12 +14,12 @@ from pierimpact.teaching.variables import Variable
 class Control:
     """One variable's slider with a box to type in, or its list of choices.
 
-    The box takes any unit of the right kind. What it says counts, even where the slider ends.
+    The box takes any unit of the right dimension. Its value counts, even beyond the slider's ends.
 
     Parameters
     ----------
     variable : Variable
-        What it sets.
+        The variable that it sets.
     value : float or str
         Its value to begin with, in SI units.
     changed : callable
@@ -73,7 +73,7 @@ class Control:
         Raises
         ------
         InputError
-            When what was typed is no such value.
+            When the text typed is not a value of this kind.
         """
         if isinstance(self._value, InputError):
             raise self._value
@@ -122,6 +122,6 @@ class Control:
     def _move_slider(self, value: float) -> None:
         variable = self.variable
         shown = min(max(value / variable.size, variable.low), variable.high)
-        # A slider that snapped to its step would otherwise say so, and lose what was typed.
+        # A slider that snaps to its step would otherwise overwrite the value typed.
         if abs(self.slider.value - shown) > 1e-9 * abs(shown):
             self.slider.value = shown

@@ -15,7 +15,7 @@ from pierimpact.units import DIMENSIONS
 
 @dataclass
 class _Score:
-    """How the questions of a notebook stand, by number: tries and whether solved."""
+    """Progress with the questions of a notebook: tries and solved ones, by number."""
 
     tries: dict[int, int] = field(default_factory=dict)
     solved: set[int] = field(default_factory=set)
@@ -84,7 +84,7 @@ class Exercise:
         )
 
     def answer(self, *_: object) -> Verdict:
-        """Check what stands in the box, say so and keep the score."""
+        """Check the answer in the box, show the reply and keep the score."""
         given = self.box.value or ""
         verdict = check(self.question, given)
         score = _SCORES.setdefault(self.topic, _Score())

@@ -24,7 +24,7 @@ PAUSE = 0.01
 HALF = (440.0, 236.0)
 
 _HOW_TO_GET_LIVE = (
-    "This is a still. To make it live, install with "
+    "This is a still picture. For the live explorer, install with "
     "<code>pip install 'pierimpact[teach]'</code> and run <code>pierimpact teach</code>."
 )
 
@@ -38,16 +38,16 @@ class Explorer:
     Parameters
     ----------
     title : str
-        What a still is called.
+        Caption of the still.
     controls, hidden : list of str
         Names of the variables on show and in a drawer below, of `pierimpact.teaching.variables`.
     views : dict of str to LiveFigure or LiveWords
         The views by name.
     draw : callable
-        From a scenario to what the views show, by name. What it refuses with an `InputError` is
-        shown as a sentence in the views' place.
+        From a scenario to the contents of the views, by name. An `InputError` that it raises is
+        shown as a sentence in place of the views.
     words : callable
-        From a scenario to what the figures show, in a sentence.
+        From a scenario to a sentence that describes the figures.
     defaults : Scenario, optional
         Values to begin with.
     """
@@ -81,12 +81,12 @@ class Explorer:
         self._still = self._stills(words(self.defaults))
 
     def scenario(self) -> Scenario:
-        """Return what the controls say.
+        """Return the scenario of the controls.
 
         Raises
         ------
         InputError
-            When one of them says nothing sensible.
+            When the value of one is not valid.
         """
         known = {field.name: getattr(self.defaults, field.name) for field in fields(Scenario)}
         return Scenario(**{**known, **{n: c.value for n, c in self.controls.items()}})
@@ -103,7 +103,7 @@ class Explorer:
         self.set(**{name: getattr(self.defaults, name) for name in self.controls})
 
     def redraw(self) -> None:
-        """Draw all views at the present values, or say why that cannot be done."""
+        """Draw all views at the present values, or show why that cannot be done."""
         self._waiting = False
         self.redraws += 1
         try:
@@ -112,7 +112,7 @@ class Explorer:
         except InputError as error:
             self._refuse(f"{error}.")
         except (ArithmeticError, ValueError, RuntimeError):
-            # A student must not meet a traceback, whatever values were found to break the model.
+            # A student must not see a traceback, whatever values break the model.
             self._refuse("The model has no result for these values. Change one of them.")
         else:
             self.message.value = ""

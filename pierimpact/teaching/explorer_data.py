@@ -59,7 +59,7 @@ def by_height(column: PierColumn) -> ByHeight:
     )
 
 
-def by_hand(scenario: Scenario) -> dict[str, float]:
+def short_procedure(scenario: Scenario) -> dict[str, float]:
     """Return the short level's values, with the exact amplification of either body."""
     parameters = scenario.collision.parameters
     closed = design_values(parameters, "short")

@@ -1,4 +1,4 @@
-"""Views in a notebook that follow what they show: figures and words.
+"""Views in a notebook that are redrawn as their contents change: figures and words.
 
 Axes with their ticks, labels and legends cost most of the drawing of a figure, and seldom change.
 They are drawn once and kept as a picture. All else is in layers, from the ground up; a redraw
@@ -49,12 +49,12 @@ class LiveFigure:
     Parameters
     ----------
     name : str
-        What it shows, in a few words.
+        Its contents, in a few words.
     size : tuple of float
         Width and height at which letters have their size, in pixels of the page; the figure
         grows and shrinks with the room it has.
     prepare : callable
-        Draws on an empty figure what never changes, and returns its axes.
+        Draws the parts that never change on an empty figure, and returns its axes.
     layers : callable
         Each draws a layer on the axes from its results, and may set the limits of the axes.
     """
@@ -155,9 +155,9 @@ class LiveFigure:
         Parameters
         ----------
         words : str
-            What is to be seen, for those who cannot see it.
+            Description for those who cannot see it.
         basis : str, optional
-            From which width on it stands beside others, where that is not its own.
+            Smallest width at which it stands beside others, where not its own.
         """
         data = base64.b64encode(self.widget.value).decode()
         alt = html.escape(f"{self.name}. {words}")

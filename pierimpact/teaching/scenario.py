@@ -1,4 +1,4 @@
-"""What the explorers explore: a truck, a column and a speed, with all that follows from them."""
+"""One collision of the explorers: truck, column and speed, with its history and spectra."""
 
 import math
 from dataclasses import dataclass, replace
@@ -212,8 +212,8 @@ class Scenario:
         """The engine and the cargo peak of the collision."""
         return {"engine": self.history.engine_peak, "cargo": self.history.cargo_peak}
 
-    def design(self, level: str = "long") -> DesignReaction:
-        """Return the design reaction of the collision."""
+    def design(self, level: str) -> DesignReaction:
+        """Return the design reaction of the collision by one of the levels."""
         return design_reaction(self.truck, self.pier, self.speed, level)
 
     @property

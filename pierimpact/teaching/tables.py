@@ -10,7 +10,6 @@ from pierimpact.files.trucks import read_truck_file
 from pierimpact.symbols import BY_KEY
 from pierimpact.teaching.markup import table
 from pierimpact.teaching.scenario import REFERENCE
-from pierimpact.teaching.variables import capitalized
 from pierimpact.units import printed
 
 
@@ -18,7 +17,7 @@ def truck_parameters(name: str = REFERENCE.name) -> HTML:
     """Return a truck's parameters, each with its status and source."""
     file = read_truck_file(name)
     rows = [
-        (capitalized(BY_KEY[entry.name].meaning), entry.given, entry.status, entry.source)
+        (BY_KEY[entry.name].heading, entry.given, entry.status, entry.source)
         for entry in file.parameters
     ]
     return HTML(table(("Parameter", "Value", "Status", "Source"), rows, right=(1,)))  # type: ignore[no-untyped-call]

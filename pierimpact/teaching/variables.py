@@ -38,7 +38,7 @@ class Variable:
     @property
     def label(self) -> str:
         """The name beside the control."""
-        return capitalized(self.symbol.meaning)
+        return self.symbol.heading
 
     @property
     def size(self) -> float:
@@ -52,7 +52,7 @@ class Variable:
         return f"{value / self.size:.4g} {self.unit}".strip()
 
     def parsed(self, text: str) -> float:
-        """Return what was typed in SI units; a bare number is in the unit shown.
+        """Return a text in SI units; a bare number is in the unit shown.
 
         Raises
         ------
@@ -66,11 +66,6 @@ class Variable:
                 return parse(self.label, text.strip(), dimension(self.symbol))
             raise InputError(f"{self.label} must be a number, got {brief(text)}") from None
         return number(self.label, plain) * self.size
-
-
-def capitalized(words: str) -> str:
-    """Return words as they begin a line."""
-    return words[:1].upper() + words[1:]
 
 
 def _spring(

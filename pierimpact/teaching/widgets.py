@@ -10,7 +10,7 @@ from pierimpact.teaching.collision_explorer import CollisionExplorer
 from pierimpact.teaching.explorer import HALF, Contents, Explorer
 from pierimpact.teaching.live import LiveFigure, LiveWords
 from pierimpact.teaching.scenario import EXAMPLE, Scenario
-from pierimpact.teaching.variables import CRUSH, capitalized
+from pierimpact.teaching.variables import CRUSH
 
 _COLUMN = ["column_diameter", "column_height", "base", "top", "damping_ratio"]
 _PIER = ["pier_frequency", "pier_mass", "damping_ratio"]
@@ -18,7 +18,7 @@ _THIRD = (280.0, 316.0)  # of the room beside the controls [px]
 
 
 def collision() -> Explorer:
-    """Explore one collision: what happens when, and what the two spikes are."""
+    """Explore one collision: its sequence, and the two spikes of its force."""
     return CollisionExplorer(
         title="A collision in slow motion, with its forces and its energy",
         controls=["speed", "truck_mass", *_COLUMN],
@@ -88,7 +88,7 @@ def reduction() -> Explorer:
     """Explore the reduction to two degrees of freedom: the amplification of either body."""
 
     def contents(scenario: Scenario) -> Contents:
-        values = explorer_data.by_hand(scenario)
+        values = explorer_data.short_procedure(scenario)
         mu, e = ((values[f"{name}1"], values[f"{name}2"]) for name in ("mu", "e"))
         curves = explorer_data.amplifications(mu, e, scenario.damping_ratio)
         return {"readout": (readouts.amplification_readout(scenario, values),)} | {
@@ -112,14 +112,14 @@ def reduction() -> Explorer:
         },
         draw=contents,
         words=lambda scenario: readouts.amplification_words(
-            scenario, explorer_data.by_hand(scenario)
+            scenario, explorer_data.short_procedure(scenario)
         ),
         defaults=EXAMPLE,
     )
 
 
 def design() -> Explorer:
-    """Explore the design reaction beside the full model and what codes say."""
+    """Explore the design reaction beside the full model and the forces of codes."""
 
     def contents(scenario: Scenario) -> Contents:
         return {
@@ -146,7 +146,7 @@ def design() -> Explorer:
 
 
 def sensitivity() -> Explorer:
-    """Explore which of the truck's parameters matter."""
+    """Explore which parameters of the truck matter."""
 
     def contents(scenario: Scenario) -> Contents:
         changes = explorer_data.influences(scenario)
@@ -180,5 +180,5 @@ def sensitivity() -> Explorer:
 def _short_name(parameter: Symbol) -> str:
     """Return the name of a truck parameter as a figure has room for it."""
     words, of, spring = parameter.meaning.partition(" of the ")
-    name = f"{spring.removesuffix(' spring')}: {words}" if of else words
-    return f"{capitalized(name)} ${parameter.latex}$"
+    name = f"{spring.removesuffix(' spring').capitalize()}: {words}" if of else parameter.heading
+    return f"{name} ${parameter.latex}$"

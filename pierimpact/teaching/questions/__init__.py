@@ -1,4 +1,4 @@
-"""The exercises of the teaching notebooks, a module a lesson; every answer is computed."""
+"""The exercises of the teaching notebooks, a module for each lesson; answers are computed."""
 
 from pierimpact.teaching.checker import Question
 from pierimpact.teaching.questions import collision, design, limits, pier, reduction, spectra

@@ -2,7 +2,6 @@
 
 import math
 
-from pierimpact.design.procedure import contact_speed
 from pierimpact.teaching.checker import Question, Trap
 from pierimpact.teaching.questions.common import (
     BODY,
@@ -16,7 +15,7 @@ from pierimpact.teaching.questions.common import (
 )
 from pierimpact.teaching.scenario import REFERENCE, Scenario
 
-_HELD = BODY.plateau_force + REFERENCE.friction_force
+_RESISTANCE = BODY.plateau_force + REFERENCE.friction_force
 
 
 def _energy(speed: float, mass: float = REFERENCE.mass) -> float:
@@ -24,13 +23,13 @@ def _energy(speed: float, mass: float = REFERENCE.mass) -> float:
 
 
 def _stopping_speed(force: float, mass: float, length: float) -> float:
-    """Return the speed that a constant force over a length takes off a mass altogether."""
+    """Return the speed from which a constant force stops a mass over a length."""
     return math.sqrt(2.0 * force * length / mass)
 
 
 def _speed_left(force: float, mass: float, length: float) -> float:
-    """Return what is left of 60 km/h when a constant force has slowed a mass over a length."""
-    return float(contact_speed(SLOW, force / mass, length))
+    """Return the speed left of 60 km/h after a constant force has slowed a mass over a length."""
+    return math.sqrt(SLOW**2 - 2.0 * force * length / mass)
 
 
 def _grows_with_mass() -> str:
@@ -41,34 +40,34 @@ def _grows_with_mass() -> str:
 
 QUESTIONS = (
     Question(
-        words=f"The truck of the explorer weighs {REFERENCE.mass / 1e3:g} t. What is its kinetic "
+        words=f"The explorer’s truck has a mass of {REFERENCE.mass / 1e3:g} t. What is its kinetic "
         "energy at 60 km/h?",
         dimension="energy",
         answer=lambda: _energy(SLOW),
         traps=(
             Trap(
                 lambda: _energy(SLOW, REFERENCE.engine_mass),
-                "That is the engine’s energy alone; the whole truck is asked for.",
+                "That is the energy of the engine alone; the question is about the whole truck.",
             ),
             Trap(
                 lambda: _energy(SLOW, REFERENCE.body_mass),
-                "That leaves the engine out; the whole truck is asked for.",
+                "That leaves out the engine; the question is about the whole truck.",
             ),
         ),
-        reason="Almost all of it ends as crushed metal.",
+        reason="Almost all of it is dissipated in crushing metal.",
     ),
     Question(
         words=f"On its way to the pier the engine (m₁ = {REFERENCE.engine_mass:g} kg) is slowed by "
         f"the plateau force P₁ = {ENGINE.plateau_force / 1e3:g} kN over the length d₁ = "
-        f"{ENGINE.plateau_length:g} m. The truck comes at 60 km/h. How fast is the engine when "
-        "it meets a pier that does not give way?",
+        f"{ENGINE.plateau_length:g} m. The truck’s speed is 60 km/h. How fast is the engine when "
+        "it strikes a rigid pier?",
         dimension="speed",
         answer=lambda: _speed_left(
             ENGINE.plateau_force, REFERENCE.engine_mass, ENGINE.plateau_length
         ),
         traps=(
             Trap(
-                lambda: _speed_left(_HELD, REFERENCE.body_mass, BODY.plateau_length),
+                lambda: _speed_left(_RESISTANCE, REFERENCE.body_mass, BODY.plateau_length),
                 ENGINE_NOT_CARGO,
             ),
             Trap(
@@ -82,18 +81,18 @@ QUESTIONS = (
                         ENGINE.plateau_force, REFERENCE.engine_mass, ENGINE.plateau_length
                     )
                 ),
-                "Energies add up, speeds do not: v² is what the plateau takes from.",
+                "Energies subtract, speeds do not: the plateau reduces v².",
             ),
         ),
         reason="The engine is light, so its plateau slows it quickly.",
     ),
     Question(
-        words=f"Spring 2 and friction hold the body (m₂ = {REFERENCE.body_mass:g} kg) with "
+        words=f"Spring 2 and friction slow the body (m₂ = {REFERENCE.body_mass:g} kg) with "
         f"{BODY.plateau_force / 1e3:g} kN and {REFERENCE.friction_force / 1e3:g} kN over "
-        f"{BODY.plateau_length:g} m. How fast must the truck be for its cargo to reach a pier "
-        "that does not give way?",
+        f"{BODY.plateau_length:g} m. Above which speed of the truck does its cargo reach a rigid "
+        "pier?",
         dimension="speed",
-        answer=lambda: _stopping_speed(_HELD, REFERENCE.body_mass, BODY.plateau_length),
+        answer=lambda: _stopping_speed(_RESISTANCE, REFERENCE.body_mass, BODY.plateau_length),
         traps=(
             Trap(
                 lambda: _stopping_speed(
@@ -109,13 +108,13 @@ QUESTIONS = (
             ),
         ),
         tolerance=0.01,
-        reason="Move the speed slider across it: the second spike comes and goes.",
+        reason="Move the speed slider past this value: the second spike appears or disappears.",
     ),
     Question(
-        words="Load the truck of the explorer from 8 t to 20 t, all else as it is. Which spike "
+        words="Load the explorer’s truck from 8 t to 20 t and change nothing else. Which spike "
         "grows more?",
         choices=PEAKS,
         answer=_grows_with_mass,
-        reason="The load is behind the engine, and not tied to it in this model.",
+        reason="The load is behind the engine, and not connected to it in this model.",
     ),
 )

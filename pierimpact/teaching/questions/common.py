@@ -1,4 +1,4 @@
-"""What the questions of several lessons share: the truck, its peaks, and hints."""
+"""The truck, peaks and hints that the questions of several lessons share."""
 
 from functools import cache
 

@@ -24,33 +24,35 @@ def _most_for_engine_peak() -> str:
 
 QUESTIONS = (
     Question(
-        words="Each of these grows by 30 %. Which moves the engine peak most?",
+        words="Each of these is increased by 30 %. Which changes the engine peak most?",
         choices=("the engine’s mass", "the body’s plateau length", "the friction"),
         answer=_most_for_engine_peak,
-        reason="It enters through the root of the mass, and through the time it takes to arrive.",
+        reason="It enters through the square root of the mass, and through the contact speed.",
     ),
     Question(
         words=f"The body’s spring has k = {BODY.stiffness / 1e6:g} MN/m and k_u = "
-        f"{BODY.unloading_stiffness / 1e6:g} MN/m. With which fraction of its contact speed "
-        "would the cargo come back from a rigid pier, by its steep spring alone?",
+        f"{BODY.unloading_stiffness / 1e6:g} MN/m. With what fraction of its contact speed "
+        "would the cargo rebound from a rigid pier, by its steep spring alone?",
         answer=lambda: BODY.restitution,
         traps=(
             Trap(
                 lambda: BODY.restitution**2,
-                "That is the fraction of the energy; the speed is its root.",
+                "That is the fraction of the energy; for the speed take the square root.",
             ),
-            Trap(lambda: 1.0 / BODY.restitution, "No more speed comes back than arrived."),
+            Trap(
+                lambda: 1.0 / BODY.restitution, "The cargo cannot rebound faster than it arrived."
+            ),
         ),
-        reason="The law that joins loading and unloading is this project’s own.",
+        reason="The unloading law is this project’s own.",
     ),
     Question(
-        words="Whose numbers are the truck’s parameters in these notebooks?",
+        words="Where do the truck’s parameters in these notebooks come from?",
         choices=(
             "Table 1 of the source paper",
             "illustrative values of this project",
             "a crash test",
         ),
         answer=lambda: "illustrative values of this project",
-        reason="Enter your own truck’s, with their source, before you rely on a result.",
+        reason="Enter those of your own truck, with their source, before you rely on a result.",
     ),
 )

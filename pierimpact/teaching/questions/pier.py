@@ -40,10 +40,10 @@ QUESTIONS = (
                 "The deflections of flexure and shear add up, not their stiffnesses.",
             ),
         ),
-        reason="So low on a stout column shear matters as much as flexure does.",
+        reason="That low on a stocky column, shear matters as much as flexure.",
     ),
     Question(
-        words=f"The column of the explorer at its defaults weighs "
+        words=f"The explorer’s default column has a mass of "
         f"{printed(Scenario().column.mass_per_length, 'mass per length', 'SI')} and is "
         f"{Scenario().column_height:g} m high; the integral of φ² over its height is "
         f"{Scenario().column.struck_at(1.2).shape_integral:.4g} m. What is m_p?",
@@ -52,10 +52,10 @@ QUESTIONS = (
         traps=(
             Trap(
                 lambda: Scenario().column.mass_per_length * Scenario().column_height,
-                "That is the whole column; only what moves with the impact counts, by φ².",
+                "That is the whole column; each part of it counts with its φ².",
             ),
         ),
-        reason="φ exceeds 1 above the impact, and yet less than the whole column takes part.",
+        reason="φ exceeds 1 above the impact, yet m_p is less than the mass of the column.",
     ),
     Question(
         words=f"A pier has k_p = {printed(500e6, 'stiffness', 'SI', given=True)} and m_p = "
@@ -63,16 +63,18 @@ QUESTIONS = (
         dimension="frequency",
         answer=lambda: math.sqrt(500e6 / 5e3) / (2.0 * math.pi),
         traps=(
-            Trap(lambda: math.sqrt(500e6 / 5e3), "That is ω_p in rad/s; f_p is asked for."),
-            Trap(lambda: 500e6 / 5e3 / (2.0 * math.pi), "The root is missing."),
+            Trap(
+                lambda: math.sqrt(500e6 / 5e3), "That is ω_p in rad/s; the question is about f_p."
+            ),
+            Trap(lambda: 500e6 / 5e3 / (2.0 * math.pi), "The square root is missing."),
         ),
-        reason="Most bridge piers struck low down are this stiff, or stiffer.",
+        reason="Most bridge piers struck near the base are this stiff or stiffer.",
     ),
     Question(
-        words="The column of the explorer is fixed at its base. When the impact moves up from "
+        words="The explorer’s column is fixed at its base. When the impact moves up from "
         "1.05 m to 1.35 m, the pier becomes …",
         choices=("stiffer", "softer"),
         answer=_softer_when_higher,
-        reason="The lever is longer: less force for the same deflection.",
+        reason="The lever arm is longer: less force for the same deflection.",
     ),
 )

@@ -22,12 +22,15 @@ QUESTIONS = (
         answer=lambda: _beta("engine"),
         traps=(
             Trap(lambda: _beta("cargo"), ENGINE_NOT_CARGO),
-            Trap(lambda: 1.0 / _beta("engine"), "β has the pier’s frequency above the engine’s."),
+            Trap(
+                lambda: 1.0 / _beta("engine"),
+                "β is the pier’s frequency over the engine’s, not the inverse.",
+            ),
         ),
-        reason="Below 1 the pier is slow: it feels the engine’s impact as an impulse.",
+        reason="Below 1 the pier responds slowly: the engine’s impact acts on it as an impulse.",
     ),
     Question(
-        words=f"The engine meets the pier at 50 km/h. What is v₁ √(k₁ m₁), the largest force of "
+        words=f"The engine strikes the pier at 50 km/h. What is v₁ √(k₁ m₁), the largest force of "
         f"its spring on a rigid pier? (m₁ = {REFERENCE.engine_mass:g} kg, k₁ = "
         f"{ENGINE.stiffness / 1e6:g} MN/m)",
         dimension="force",
@@ -41,17 +44,17 @@ QUESTIONS = (
         reason="Speed, stiffness and mass: nothing else enters a hard impact.",
     ),
     Question(
-        words=f"A soft, heavy pier has β = 0.1 for the engine. The engine’s spring unloads on "
-        f"k_u1 = {ENGINE.unloading_stiffness / 1e6:g} MN/m after loading on "
+        words=f"A soft, heavy pier has β = 0.1 for the engine. The engine’s spring unloads with "
+        f"k_u1 = {ENGINE.unloading_stiffness / 1e6:g} MN/m after loading with "
         f"{ENGINE.stiffness / 1e6:g} MN/m. What is S by the impulse limit?",
         answer=lambda: (1.0 + ENGINE.restitution) * 0.1,
         traps=(
             Trap(lambda: 0.1, "That leaves out the rebound: the engine does not just stop."),
             Trap(
                 lambda: (1.0 + ENGINE.restitution**2) * 0.1,
-                "The restitution is the root of k over k_u.",
+                "The restitution is the square root of k over k_u.",
             ),
         ),
-        reason="The pier feels a tenth of the force and all of the impulse.",
+        reason="The pier carries a fraction of the force, but takes all of the impulse.",
     ),
 )

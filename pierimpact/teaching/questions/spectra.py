@@ -30,29 +30,30 @@ def _least_by_mass() -> str:
 
 QUESTIONS = (
     Question(
-        words="Set the pier to 10 Hz and 8 t, the rest to the defaults. What is the engine peak?",
+        words="Set the pier to 10 Hz and 8 t and leave the rest at the defaults. What is the "
+        "engine peak?",
         dimension="force",
         answer=lambda: engine_peak(_SOFT),
         traps=(Trap(lambda: cargo_peak(_SOFT), ENGINE_NOT_CARGO),),
-        reason="The engine’s spring pressed far harder, but the pier was too slow to feel it.",
+        reason="The engine’s spring force was far larger, but too brief for this pier.",
     ),
     Question(
         words="And the cargo peak of the same pier?",
         dimension="force",
         answer=lambda: cargo_peak(_SOFT),
         traps=(Trap(lambda: engine_peak(_SOFT), CARGO_NOT_ENGINE),),
-        reason="The cargo presses for longer than the pier takes to swing.",
+        reason="The cargo’s force lasts long enough for the pier to respond.",
     ),
     Question(
-        words="For a pier of 8 t struck at the defaults: from which frequency on does the engine "
-        "govern? (within 5 %)",
+        words="For a pier of 8 t and the default truck and speed, above which frequency does the "
+        "engine govern? (within 5 %)",
         dimension="frequency",
         tolerance=0.05,
         answer=_crossing,
-        reason="A stiff pier feels the engine, a soft one does not.",
+        reason="A stiff pier responds to the engine, a soft one does not.",
     ),
     Question(
-        words="Double the truck’s mass to 16 t at 60 Hz. Which peak hardly moves?",
+        words="Double the truck’s mass to 16 t at 60 Hz. Which peak hardly changes?",
         choices=PEAKS,
         answer=_least_by_mass,
         reason="The engine’s mass did not change.",
