@@ -210,7 +210,7 @@ def _lines_of_part(
     if sorted(line.name for line in lines) != sorted(inside) or len(inside) != len(names):
         raise CalculationError(f"{part.__name__} must return every symbol that it gives")
     put = _bound(part, arguments) | {
-        own: ast.Name(name) for own, name in zip(inside, names, strict=True)
+        own: ast.Name(name, ast.Load()) for own, name in zip(inside, names, strict=True)
     }
     outside = dict(zip(inside, names, strict=True))
     return [

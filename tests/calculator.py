@@ -1,6 +1,6 @@
 """The design procedure typed once more for one collision, as someone with a calculator would.
 
-Nothing is shared with the package but its input objects. The refined level finds the modes of
+Nothing is shared with the package but its input objects. The long level finds the modes of
 body and pier as an eigenvalue problem, and the moments of the engine's pulse by quadrature.
 """
 
@@ -34,8 +34,8 @@ class Procedure:
         self.Rs = self.Fs * (1 + exp(-pi * self.zeta * self.omega / self.omega_d))
         self.a1, self.a2 = P1 / self.m1, self.H / self.m2
         self.d1, self.d2 = truck.engine_spring.plateau_length, truck.body_spring.plateau_length
-        self.engine_alone(moves=level == "refined")
-        if level == "refined":
+        self.engine_alone(moves=level == "long")
+        if level == "long":
             self.ringing()
             self.cargo_by_modes()
         else:

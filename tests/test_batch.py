@@ -313,20 +313,20 @@ def test_the_summary_leads_with_the_worst_of_the_cases(tmp_path):
     ):
         changes = {"speed": speed, "shear_resistance": resistance, "date": date}
         case = write_case(tmp_path / f"{name}.yaml", **changes)
-        rows.append(Row(name, calculate(read_case(case)), []))
+        rows.append(Row(name, results_of(case), []))
     title, headline, *_ = summary_blocks(rows)
     cells = re.findall(
         r'<dt>([^<]+)</dt><dd><span class="value">([^<]*)<.*?<span class="remark">([^<]*)',
-        headline.to_html(),
+        headline._repr_html_(),
     )
-    results = {row.name: row.calculation for row in rows}
-    force, shear = results["fast"].design_force, results["slow"].utilisations["shear"]
+    results = {row.name: row.results for row in rows}
+    force, shear = results["fast"].design_reaction, results["slow"].utilisations["shear"]
     assert cells == [
         ("Cases calculated", "3", "of 3"),
         ("Largest design reaction", printed(force, "force", "SI").number, "fast"),
         ("Largest utilisation", rounded(shear, 3), "slow, in shear"),
     ]
-    assert "2026-05-06" in title.to_html()
+    assert "2026-05-06" in title._repr_html_()
 
 
 @pytest.mark.parametrize(("units", "words"), [("SI", "117 km/h"), ("US", "72.7 mph")])

@@ -374,9 +374,9 @@ def force_unit(calculated):
     return mathml.size(re.search(r"Full model \[(kN|kip)\]", calculated.page)[1])
 
 
-def test_the_hand_level(calculated):
+def test_the_short_level(calculated):
     values = dict(calculated.values)
-    for row in calculated.rows("tab-hand"):
+    for row in calculated.rows("tab-short"):
         sides = mathml.rows(ElementTree.tostring(row[1].find(f".//{mathml.NAMESPACE}math")))
         found, moved = mathml.evaluate(sides[1], values)
         symbol = tuple(sides[0])
@@ -427,7 +427,8 @@ def test_member_forces_and_utilisations(calculated):
 
 def test_codes_at_their_own_height(calculated):
     """The sheet's own equations, with the height of the clause for that of this calculation."""
-    steps = ("eq-freed", "eq-own", "eq-Rt", "eq-Mt", "eq-Rb", "eq-Mb", "eq-Mn")
+    names = ("delta10", "delta11", "Rt", "Rb", "Mt", "Mb", "Mn")
+    steps = [label for label in calculated.formulas if label.removeprefix("eq-") in names]
     caption = re.search(r'id="tab-effects">(.*?)<tbody>', calculated.page, re.DOTALL)[1]
     units = [mathml.size(unit) for unit in re.findall(r"\[([^\]]+)\]</th>", caption)]
     force_size, length, _, moment_size = units
@@ -492,7 +493,7 @@ def test_sensitivities(calculated):
 
 def test_the_headline_repeats_what_is_calculated(calculated):
     cells = dict(
-        re.findall(r'<dt>([^<]+)</dt><dd><span class="value">([^<]*)<small>', calculated.page)
+        re.findall(r'<dt>([^<]+)</dt>\s*<dd><span class="value">([^<]*)<small>', calculated.page)
     )
     (reaction, _), _ = reactions(calculated)
     unit = force_unit(calculated)
@@ -511,7 +512,8 @@ def test_the_headline_repeats_what_is_calculated(calculated):
 
 def test_the_remarks_of_the_headline(calculated):
     remarks = re.findall(
-        r'<dt>([^<]+)</dt><dd><span class="value">[^/]*</small></span><span class="remark">([^<]*)',
+        r'<dt>([^<]+)</dt>\s*<dd><span class="value">[^/]*</small></span>'
+        r'<span class="remark">([^<]*)',
         calculated.page,
     )
     remarks = {name: text.replace("\u202f", "") for name, text in remarks}
@@ -560,7 +562,7 @@ def test_the_codes_across_the_travel_are_half_of_those_along(calculated):
 
 
 def test_the_words_for_the_figure_of_sensitivity_have_its_ends(calculated):
-    words = re.search(r'id="fig-sensitivity"><img alt="([^"]+)"', calculated.page)[1]
+    words = re.search(r'id="fig-sensitivity">\s*<img alt="([^"]+)"', calculated.page)[1]
     words = re.sub(r"\s+", " ", words.replace("\u202f", ""))
     found = re.findall(r"([\d.]+) (kN|kip) at ([\d.]+) (km/h|mph)", words)
     for share, (force, unit, speed, speed_unit) in zip((0.5, 1.5), found, strict=True):
@@ -606,7 +608,7 @@ def test_the_full_model_from_the_printed_inputs(calculated):
 
 
 def test_the_spectra_are_marked_with_the_printed_peaks(calculated):
-    words = re.search(r'id="fig-spectra"><img alt="([^"]+)"', calculated.page)[1]
+    words = re.search(r'id="fig-spectra">\s*<img alt="([^"]+)"', calculated.page)[1]
     rows = calculated.numbers("tab-peaks")
     shown = [rows[name][1] for name in ("Engine", "Cargo") if rows[name][1] != "none"]
     found = re.findall(r"peak of ([\d\u202f.]+)", words)
@@ -682,7 +684,9 @@ def test_the_reactions_at_other_speeds_and_masses(calculated):
             continue
         found = reference.solve(truck, calculated.pier, at)
         close_to_model(float(np.fmax(found.engine, found.cargo)), model, unit)
-        close_to_model(design_reaction(truck, calculated.pier, at).reaction, procedure, unit)
+        close_to_model(
+            design_reaction(truck, calculated.pier, at, "long").reaction, procedure, unit
+        )
 
 
 def test_the_cases_are_of_every_kind():
@@ -697,7 +701,7 @@ def test_the_cases_are_of_every_kind():
             ("engine contact", history.engine_contact_time is not None),
             ("cargo contact", history.cargo_contact_time is not None),
             ("governs", result.governs),
-            ("decisive", result.decisive),
+            ("method", result.governing_method),
             ("ends", (result.case.inputs.base, result.case.inputs.top)),
         }
     assert len(kinds) == 2 + 2 + 2 + 2 + 6

@@ -55,7 +55,7 @@ def crossing():
 
 
 def designed():
-    found = Procedure(TRUCK, PIER, 60.0 * KMH, "refined")
+    found = Procedure(TRUCK, PIER, 60.0 * KMH, "long")
     return max(found.engine, found.cargo)
 
 

@@ -80,7 +80,7 @@ def test_python_of_the_readme_runs(capsys):
 def test_figures_of_the_readme_are_those_of_the_study():
     readme = (HOUSE / "README.md").read_text(encoding="utf-8")
     study = json.loads((HOUSE / "pierimpact" / "design" / "study.json").read_text(encoding="utf-8"))
-    for level in ("refined (default)", "hand"):
+    for level in ("short (default)", "long"):
         found = study["predicted over CMSD"][level.split()[0]]["governing"]["all"]
         spread = 100.0 * found["coefficient of variation"]
         row = f"| {level} | {found['mean']:.2f} | {spread:.1f} % | {found['1st percentile']:.2f} |"

@@ -208,9 +208,9 @@ def test_modes_are_the_eigenvectors(seed):
     (m, k, mp, kp), slow, fast, _, _ = in_contact(seed)
     squares, shapes = np.linalg.eig(np.array([[(k + kp) / mp, -k / mp], [-k / m, k / m]]))
     order = np.argsort(squares)
-    for mode, i in zip((slow, fast), order, strict=True):
-        assert mode.omega == pytest.approx(math.sqrt(squares[i]), rel=1e-8)
-        assert mode.body == pytest.approx(shapes[1, i] / shapes[0, i], rel=1e-6)
+    for found, i in zip((slow, fast), order, strict=True):
+        assert found.omega == pytest.approx(math.sqrt(squares[i]), rel=1e-8)
+        assert found.body == pytest.approx(shapes[1, i] / shapes[0, i], rel=1e-6)
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.05, 0.2])

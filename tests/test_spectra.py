@@ -23,7 +23,7 @@ solved = functools.cache(reference.solve)
 integrated = functools.cache(two_degrees.amplification)
 
 
-def spectrum_of(which, case, level="refined"):
+def spectrum_of(which, case, level="long"):
     """The spectrum of a generated collision, at its own frequency and at two others."""
     truck, pier, speed = case
     frequency = pier.frequency * np.array([0.5, 1.0, 2.0])
@@ -44,7 +44,7 @@ def test_the_full_model_is_the_reference(which):
         np.testing.assert_allclose(spectrum_of(which, case).full_model, expected, rtol=1e-8)
 
 
-@pytest.mark.parametrize("level", ["refined", "hand"])
+@pytest.mark.parametrize("level", ["long", "short"])
 @pytest.mark.parametrize("which", SPECTRA)
 def test_the_closed_form_is_the_procedure_typed_again(which, level):
     for case in CASES:
@@ -54,9 +54,9 @@ def test_the_closed_form_is_the_procedure_typed_again(which, level):
 
 
 @pytest.mark.parametrize("which", SPECTRA)
-def test_the_two_degrees_are_an_independent_integration_in_the_hand_formula(which):
+def test_the_two_degrees_are_an_independent_integration_in_the_short_level(which):
     for case in CASES[:4]:
-        typed = [Procedure(*one, "hand", integrated) for one in each_collision(case)]
+        typed = [Procedure(*one, "short", integrated) for one in each_collision(case)]
         expected = [getattr(each, which) for each in typed]
         found = spectrum_of(which, case).two_degrees
         np.testing.assert_allclose(found, expected, rtol=1e-5)
@@ -115,7 +115,7 @@ def test_one_frequency():
         ({"pier_mass": 0.0}, "pier_mass must be positive, got 0"),
         ({"damping_ratio": 1.0}, "damping_ratio must lie from 0 to below 1, got 1"),
         ({"frequency": [1.0, 0.0]}, "frequency must be positive, got 0 at index 1"),
-        ({"level": "rough"}, "level must be one of refined, hand, got 'rough'"),
+        ({"level": "rough"}, "level must be one of short, long, got 'rough'"),
     ],
 )
 @pytest.mark.parametrize("which", SPECTRA)

@@ -12,6 +12,7 @@ from pierimpact.design import domain, procedure, study
 from pierimpact.design.procedure import LEVELS
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.files.trucks import load_truck
+from pierimpact.symbols import SYMBOLS
 
 
 @pytest.fixture(scope="module")
@@ -29,9 +30,10 @@ def spectrum(outcome):
 def test_the_file_is_of_this_domain_seed_and_size(outcome):
     assert (outcome["seed"], outcome["size"]) == (study.SEED, study.SIZE)
     assert outcome["size"] >= 5000
-    assert list(outcome["domain"]) == list(domain.DOMAIN)
+    names = {SYMBOLS[name].meaning: name for name in domain.DOMAIN}
+    assert list(outcome["domain"]) == list(names)
     for name, text in outcome["domain"].items():
-        low, high, unit, _ = domain.DOMAIN[name]
+        low, high, unit, _ = domain.DOMAIN[names[name]]
         assert text == f"{low:g} to {high:g} {unit}"
 
 
