@@ -324,6 +324,10 @@ class _Printer:
             ):
                 below = self.text(b, _POWER, flat)
                 return within(f"{self.text(a, _PRODUCT, flat)} / {below}", _PRODUCT)
+            case ast.BinOp(
+                left=ast.Constant(value=1), op=ast.Div(), right=ast.Call(args=[a]) as call
+            ) if ast.unparse(call.func) == "sqrt" and r"\frac" in self.text(a):
+                return f"{self.text(a, _POWER)}^{{-1/2}}"
             case ast.BinOp(left=a, op=ast.Div(), right=b):
                 return rf"\frac{{{self.text(a)}}}{{{self.text(b)}}}"
             case ast.BinOp(left=a, op=ast.Pow(), right=b):
@@ -348,6 +352,8 @@ class _Printer:
         match node:
             case ast.BinOp(left=left, op=ast.Pow()):
                 return self._short(left)
+            case ast.BinOp(left=left, op=ast.Mult(), right=right):
+                return self._short(left) and self._short(right)
             case ast.Name(id=name):
                 return not _compound(self.shown.get(name, ""))
         return isinstance(node, ast.Constant)

@@ -316,7 +316,7 @@ def test_the_summary_leads_with_the_worst_of_the_cases(tmp_path):
         rows.append(Row(name, results_of(case), []))
     title, headline, *_ = summary_blocks(rows)
     cells = re.findall(
-        r'<dt>([^<]+)</dt><dd><span class="value">([^<]*)<.*?<span class="remark">([^<]*)',
+        r'<dt>([^<]+)</dt>\s*<dd><span class="value">([^<]*)<.*?<span class="remark">([^<]*)',
         headline._repr_html_(),
     )
     results = {row.name: row.results for row in rows}

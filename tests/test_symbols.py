@@ -12,7 +12,7 @@ from pierimpact.units import CONSISTENT, DIMENSIONS, QUANTITIES
 
 @pytest.mark.parametrize("name", SYMBOLS)
 def test_every_symbol_has_meaning_and_kind(name):
-    meaning, latex, quantity, _ = SYMBOLS[name]
+    latex, quantity, meaning, _ = SYMBOLS[name]
     assert meaning
     assert meaning == meaning.strip()
     assert meaning.count("$") % 2 == 0

@@ -59,7 +59,7 @@ def contact_speed(V: Real, a: Real, d: Real) -> Real:
     return sqrt(maximum(V**2 - 2 * a * d, 0))
 
 
-def contact_time(V: Real, a: Real, d: Real) -> Real:
+def contact_time(V, a, d):
     """Return the time to cover d; where it stops before, of a body that just reaches it [s]."""
     return 2 * d / (V + contact_speed(V, a, d))
 
@@ -67,26 +67,26 @@ def contact_time(V: Real, a: Real, d: Real) -> Real:
 # The motion of the pier
 
 
-def step_x(F: Real, k: Real, omega: Real, omega_d: Real, zeta: Real, t: Real) -> Real:
+def step_x(F, k, omega, omega_d, zeta, t):
     """Return the displacement under a force that acts suddenly from t = 0 on [m]."""
     return F / k * (
         1 - exp(-zeta * omega * t) * (cos(omega_d * t) + zeta * omega / omega_d * sin(omega_d * t))
     )  # fmt: skip
 
 
-def step_v(F: Real, m: Real, omega: Real, omega_d: Real, zeta: Real, t: Real) -> Real:
+def step_v(F, m, omega, omega_d, zeta, t):
     """Return the velocity of the same [m/s]."""
     return F / (m * omega_d) * exp(-zeta * omega * t) * sin(omega_d * t)
 
 
-def free_x(x: Real, v: Real, omega: Real, omega_d: Real, zeta: Real, t: Real) -> Real:
+def free_x(x, v, omega, omega_d, zeta, t):
     """Return the displacement of a free damped vibration, t after it was x with velocity v [m]."""
     return exp(-zeta * omega * t) * (
         x * cos(omega_d * t) + (v + zeta * omega * x) / omega_d * sin(omega_d * t)
     )
 
 
-def free_v(x: Real, v: Real, omega: Real, omega_d: Real, zeta: Real, t: Real) -> Real:
+def free_v(x, v, omega, omega_d, zeta, t):
     """Return the velocity of the same [m/s]."""
     return exp(-zeta * omega * t) * (
         v * cos(omega_d * t) - (omega**2 * x + zeta * omega * v) / omega_d * sin(omega_d * t)
@@ -136,7 +136,7 @@ def amplification(beta: Real, mu: Real, e: Real, zeta: Real) -> Real:
 # What both levels have in common
 
 
-def ratios(omega: Real, mp: Real, m: Real, k: Real, ku: Real) -> tuple[Real, ...]:
+def ratios(omega, mp, m, k, ku):
     """Return frequency ratio, mass ratio and restitution of a body on its steep spring [-]."""
     beta = omega / sqrt(k / m)
     mu = m / mp
@@ -144,9 +144,7 @@ def ratios(omega: Real, mp: Real, m: Real, k: Real, ku: Real) -> tuple[Real, ...
     return beta, mu, e
 
 
-def plateau(
-    m1: Real, P1: Real, m2: Real, P2: Real, cs: Real, mp: Real, kp: Real, zeta: Real, on_pier: Real
-) -> tuple[Real, ...]:
+def plateau(m1, P1, m2, P2, cs, mp, kp, zeta, on_pier):
     """Return what the pier is, and how the plateau forces push it and slow the truck."""
     omega = sqrt(kp / mp)
     omega_d = omega * sqrt(1 - zeta**2)
@@ -159,10 +157,7 @@ def plateau(
     return omega, omega_d, Q, Fpl, Rpl, a1, Fb, a2
 
 
-def engine_impact(
-    m1: Real, k1: Real, kp: Real, omega: Real, omega_d: Real, Q: Real, Rpl: Real,
-    t1: Real, x1: Real, dx1: Real, v1: Real, S1: Real,
-) -> tuple[Real, ...]:  # fmt: skip
+def engine_impact(m1, k1, kp, omega, omega_d, Q, Rpl, t1, x1, dx1, v1, S1):
     """Return the free vibration that the engine's impact leaves, and the engine's reaction."""
     u1 = maximum(v1 - dx1, 0)
     Rv1 = hypot(kp * x1 - Q, kp * dx1 / omega + S1 * u1 * sqrt(k1 * m1))
@@ -176,10 +171,10 @@ def engine_impact(
 
 @Calculation
 def short(
-    V: Real, m1: Real, P1: Real, d1: Real, k1: Real, ku1: Real, m2: Real, P2: Real, d2: Real,
-    k2: Real, ku2: Real, cs: Real, mp: Real, kp: Real, zeta: Real, on_pier: Real,
-    spectrum: Spectrum = unified_spectrum,
-) -> Values:  # fmt: skip
+    V, m1, P1, d1, k1, ku1, m2, P2, d2,
+    k2, ku2, cs, mp, kp, zeta, on_pier,
+    spectrum=unified_spectrum,
+):  # fmt: skip
     """The pier stands still until it is struck; of its vibration, a share is added."""
     omega, omega_d, Q, Fpl, Rpl, a1, Fb, a2 = plateau(m1, P1, m2, P2, cs, mp, kp, zeta, on_pier)
     # Engine
@@ -205,10 +200,7 @@ def short(
 # The long level
 
 
-def pier_x(
-    t: Real, tJ: Real, xJ: Real, dxJ: Real, Q: Real, Fpl: Real, kp: Real, omega: Real,
-    omega_d: Real, zeta: Real,
-) -> Real:  # fmt: skip
+def pier_x(t, tJ, xJ, dxJ, Q, Fpl, kp, omega, omega_d, zeta):
     """Return the displacement of the pier before cargo contact [m]."""
     return where(
         t > tJ,
@@ -217,7 +209,7 @@ def pier_x(
     )
 
 
-def centroid(e: Real) -> Real:
+def centroid(e):
     """Return the mean time of an impact weighted by its force, over ω_r t [-].
 
     The force rises in a quarter of a sine and falls in a quarter of a cosine, e times as long.
@@ -225,14 +217,14 @@ def centroid(e: Real) -> Real:
     return (1 + pi / 2 * e + (pi / 2 - 1) * e**2) / (1 + e)
 
 
-def second_moment(e: Real) -> Real:
+def second_moment(e):
     """Return the mean square of the time of the same [-]."""
     return (
         pi - 2 + pi**2 / 4 * e + pi * (pi / 2 - 1) * e**2 + (pi**2 / 4 - 2) * e**3
     ) / (1 + e)  # fmt: skip
 
 
-def frequencies(beta2: Real, mu2: Real, omega: Real) -> tuple[Real, ...]:
+def frequencies(beta2, mu2, omega):
     """Return circular frequencies of the two modes of pier and cargo in contact, and their shapes.
 
     A shape is the displacement of the body over the pier's.
@@ -247,10 +239,7 @@ def frequencies(beta2: Real, mu2: Real, omega: Real) -> tuple[Real, ...]:
     return gamma, lam, Lam, omega_s, psi_s, omega_f, psi_f
 
 
-def mode(
-    omega_i: Real, psi: Real, mu2: Real, omega: Real, zeta: Real, x2: Real, dx2: Real, v2: Real,
-    x0: Real, Fb: Real, k2: Real,
-) -> tuple[Real, ...]:  # fmt: skip
+def mode(omega_i, psi, mu2, omega, zeta, x2, dx2, v2, x0, Fb, k2):
     """Return one of the two modes of pier and cargo in contact, from their motion at contact.
 
     Its decay rate, cosine and sine part, amplitude, phase and angle of the first maximum. The
@@ -265,33 +254,27 @@ def mode(
     return sigma, a, b, X, phi, theta
 
 
-def both_modes(
-    t: Real, x0: Real, X_s: Real, sigma_s: Real, omega_s: Real, phi_s: Real,
-    X_f: Real, sigma_f: Real, omega_f: Real, phi_f: Real,
-) -> Real:  # fmt: skip
+def both_modes(t, x0, X_s, sigma_s, omega_s, phi_s, X_f, sigma_f, omega_f, phi_f):
     """Return the displacement of the pier in contact with the cargo, t after contact [m]."""
     return x0 + of_mode(t, X_s, sigma_s, omega_s, phi_s) + of_mode(t, X_f, sigma_f, omega_f, phi_f)
 
 
-def of_mode(t: Real, X: Real, sigma: Real, omega: Real, phi: Real) -> Real:
+def of_mode(t, X, sigma, omega, phi):
     """Return the displacement of one mode [m]."""
     return X * exp(-sigma * t) * cos(omega * t - phi)
 
 
-def curvature(X: Real, omega: Real) -> Real:
+def curvature(X, omega):
     """Return the curvature of a mode at its maximum [m/s²]."""
     return X * omega**2
 
 
-def fast_maximum(n: Real, theta_f: Real, omega_f: Real) -> Real:
+def fast_maximum(n, theta_f, omega_f):
     """Return the time of the fast mode's maximum after n periods [s]."""
     return (theta_f + 2 * pi * n) / omega_f
 
 
-def maxima(
-    X_s: Real, sigma_s: Real, omega_s: Real, theta_s: Real,
-    X_f: Real, sigma_f: Real, omega_f: Real, theta_f: Real,
-) -> tuple[Real, ...]:  # fmt: skip
+def maxima(X_s, sigma_s, omega_s, theta_s, X_f, sigma_f, omega_f, theta_f):
     """Return when both modes together are largest, before and after the slow one is.
 
     Near its maximum each mode is a parabola, so that the sum has its maximum at the mean of both
@@ -309,10 +292,10 @@ def maxima(
 
 @Calculation
 def long(
-    V: Real, m1: Real, P1: Real, d1: Real, k1: Real, ku1: Real, m2: Real, P2: Real, d2: Real,
-    k2: Real, ku2: Real, cs: Real, mp: Real, kp: Real, zeta: Real, on_pier: Real,
-    spectrum: Spectrum = unified_spectrum,
-) -> Values:  # fmt: skip
+    V, m1, P1, d1, k1, ku1, m2, P2, d2,
+    k2, ku2, cs, mp, kp, zeta, on_pier,
+    spectrum=unified_spectrum,
+):  # fmt: skip
     """The pier's own motion corrects times and speeds of contact; its vibration keeps its phase."""
     omega, omega_d, Q, Fpl, Rpl, a1, Fb, a2 = plateau(m1, P1, m2, P2, cs, mp, kp, zeta, on_pier)
     # Engine

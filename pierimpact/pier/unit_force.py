@@ -7,15 +7,10 @@ are per unit of force; the shape below and above the impact is a polynomial in s
 from the base or from the top over the height of the column.
 """
 
-from typing import Any, TypeAlias
-
 from pierimpact.handcalc import Calculation
 
-Real: TypeAlias = Any  # a float, or an array
-Values: TypeAlias = dict[str, Real]
 
-
-def other_end(R: Real, M: Real, H: Real, here: Real, there: Real) -> tuple[Real, ...]:
+def other_end(R, M, H, here, there):
     """Return force and moment at the other end, and the moment at the impact.
 
     From force and moment at one end, and the distances of the impact from here and from there.
@@ -26,10 +21,7 @@ def other_end(R: Real, M: Real, H: Real, here: Real, there: Real) -> tuple[Real,
     return other_R, other_M, Mn
 
 
-def stiffness(
-    Rb: Real, Rt: Real, Mb: Real, Mn: Real, Mt: Real,
-    H: Real, z: Real, y: Real, EI: Real, GA: Real,
-) -> tuple[Real, ...]:  # fmt: skip
+def stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA):
     """Return the deflection at the impact, the stiffness, and where on the column the impact is.
 
     The deflection is twice the work of the unit force: the integrals of the squares of moment and
@@ -45,7 +37,7 @@ def stiffness(
     return xfb, xft, xs, xn, kp, sb, st
 
 
-def fixed_end(M: Real, R: Real, H: Real, EI: Real, GA: Real, xn: Real) -> tuple[Real, ...]:
+def fixed_end(M, R, H, EI, GA, xn):
     """Return the coefficients of s², s³ and s beside a fixed end."""
     c2 = -M * H**2 / (2 * EI * xn)  # moment at the end
     c3 = -R * H**3 / (6 * EI * xn)  # force at the end
@@ -53,21 +45,21 @@ def fixed_end(M: Real, R: Real, H: Real, EI: Real, GA: Real, xn: Real) -> tuple[
     return c2, c3, c1
 
 
-def pinned_end(R: Real, s: Real, H: Real, EI: Real, xn: Real) -> tuple[Real, Real]:
+def pinned_end(R, s, H, EI, xn):
     """Return the coefficients of s³ and s beside a pinned end."""
     c3 = -R * H**3 / (6 * EI * xn)  # force at the end
     c1 = (1 - c3 * s**3) / s  # 1 at the impact
     return c3, c1
 
 
-def free_end(s: Real, other_s: Real, other_c2: Real, other_c3: Real) -> tuple[Real, Real]:
+def free_end(s, other_s, other_c2, other_c3):
     """Return the coefficient of s and the constant beside a free end."""
     c1 = -2 * other_c2 * other_s - 3 * other_c3 * other_s**2  # tangent to the other part
     c0 = 1 - c1 * s  # 1 at the impact
     return c1, c0
 
 
-def integral_cubic(H: Real, s: Real, c1: Real, c2: Real, c3: Real) -> Real:
+def integral_cubic(H, s, c1, c2, c3):
     """Return the integral of φ² beside a fixed end."""
     return H * (
         c1**2 * s**3 / 3
@@ -78,18 +70,18 @@ def integral_cubic(H: Real, s: Real, c1: Real, c2: Real, c3: Real) -> Real:
     )
 
 
-def integral_odd(H: Real, s: Real, c1: Real, c3: Real) -> Real:
+def integral_odd(H, s, c1, c3):
     """Return the integral of φ² beside a pinned end."""
     return H * (c1**2 * s**3 / 3 + 2 * c1 * c3 * s**5 / 5 + c3**2 * s**7 / 7)
 
 
-def integral_straight(H: Real, s: Real, c0: Real, c1: Real) -> Real:
+def integral_straight(H, s, c0, c1):
     """Return the integral of φ² beside a free end."""
     return H * (c0**2 * s + c0 * c1 * s**2 + c1**2 * s**3 / 3)
 
 
 @Calculation
-def fixed_free(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+def fixed_free(H, z, y, EI, GA):
     """A cantilever from the base."""
     Rt = 0  # free top
     Mt = 0  # free top
@@ -103,7 +95,7 @@ def fixed_free(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
 
 
 @Calculation
-def free_fixed(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+def free_fixed(H, z, y, EI, GA):
     """A cantilever from the top."""
     Rb = 0  # free base
     Mb = 0  # free base
@@ -117,7 +109,7 @@ def free_fixed(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
 
 
 @Calculation
-def pinned_pinned(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+def pinned_pinned(H, z, y, EI, GA):
     """A simply supported column."""
     Rt = z / H  # equilibrium
     Rb = 1 - Rt  # equilibrium
@@ -133,7 +125,7 @@ def pinned_pinned(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
 
 
 @Calculation
-def fixed_pinned(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+def fixed_pinned(H, z, y, EI, GA):
     """A column propped at the top: the top is released, and brought back by its force."""
     delta10 = z**2 * (3 * H - z) / (6 * EI) + z / GA  # flexure and shear
     delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
@@ -149,7 +141,7 @@ def fixed_pinned(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
 
 
 @Calculation
-def pinned_fixed(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+def pinned_fixed(H, z, y, EI, GA):
     """A column propped at the base: the base is released, and brought back by its force."""
     delta10 = y**2 * (2 * H + z) / (6 * EI) + y / GA  # flexure and shear
     delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
@@ -165,7 +157,7 @@ def pinned_fixed(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
 
 
 @Calculation
-def fixed_fixed(H: Real, z: Real, y: Real, EI: Real, GA: Real) -> Values:
+def fixed_fixed(H, z, y, EI, GA):
     """Both ends fixed: the top may move but not rotate, and is brought back by its force."""
     delta10 = z**2 * (3 * H - 2 * z) / (12 * EI) + z / GA  # flexure and shear; it cannot rotate
     delta11 = H**3 / (12 * EI) + H / GA  # flexure and shear; it cannot rotate

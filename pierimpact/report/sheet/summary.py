@@ -155,7 +155,7 @@ def limits_of_the_study(outside: Sequence[Outside], overlapping: bool, system: s
     """
     clauses = []
     for name, *values in outside:
-        meaning, _, quantity, _ = SYMBOLS[name]
+        _, quantity, meaning, _ = SYMBOLS[name]
         shown, least, most = (printed(value, quantity, system, given=True) for value in values)
         clauses.append(f"{meaning} {shown} outside the studied {least.number} to {most}")
     if overlapping:
