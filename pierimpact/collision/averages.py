@@ -12,18 +12,10 @@ Array = NDArray[np.float64]
 
 
 class AverageForce(NamedTuple):
-    """The largest moving average of the contact force.
+    """The largest moving average of the contact force."""
 
-    Parameters
-    ----------
-    force : float
-        Its value [N].
-    start : float
-        When its window begins after first touch; negative where it begins before [s].
-    """
-
-    force: float
-    start: float
+    force: float  #: its value [N]
+    start: float  #: when its window begins after first touch; negative where before it [s]
 
 
 def largest_average_force(history: CollisionHistory, window: float) -> AverageForce:

@@ -318,14 +318,14 @@ def propagate(
 
 
 class Outcomes(NamedTuple):
-    """Times of the first contacts, and peaks of x_p with their times, each of shape (n,)."""
+    """Peaks of x_p with their times, and times of the first contacts, each of shape (n,)."""
 
+    engine_peak: NDArray[np.float64]
+    cargo_peak: NDArray[np.float64]
+    engine_peak_time: NDArray[np.float64]
+    cargo_peak_time: NDArray[np.float64]
     engine_contact: NDArray[np.float64]
     cargo_contact: NDArray[np.float64]
-    engine_peak: NDArray[np.float64]
-    engine_peak_time: NDArray[np.float64]
-    cargo_peak: NDArray[np.float64]
-    cargo_peak_time: NDArray[np.float64]
 
 
 class Running(NamedTuple):
