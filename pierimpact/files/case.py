@@ -24,27 +24,13 @@ NOTEBOOK_PARAMETERS = ("case_file", "case_sha256")
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
-    """A case that has passed every check, as objects of the core.
+    """A case that has passed every check, as objects of the core."""
 
-    Parameters
-    ----------
-    inputs : Inputs
-        Values by key, in SI units.
-    given : mapping of str to object
-        What was typed, by key, for the keys that were given.
-    column : PierColumn
-        The pier.
-    truck : Truck
-        The truck, with the mass of the case.
-    truck_file : TruckFile
-        The file of the truck, with the source and status of each parameter.
-    """
-
-    inputs: Inputs
-    given: Mapping[str, object]
+    inputs: Inputs  #: values by key, in SI units
+    given: Mapping[str, object]  #: what was typed, by key, for the keys that were given
     column: PierColumn
-    truck: Truck
-    truck_file: TruckFile
+    truck: Truck  #: with the mass of the case
+    truck_file: TruckFile  #: with the source and status of each parameter
 
     @property
     def impact_heights(self) -> tuple[float, ...]:
@@ -55,23 +41,11 @@ class Case:
 
 @dataclass(frozen=True, kw_only=True)
 class CaseFile:
-    """A case file, read once: what it says, and the case that it gives.
+    """A case file, read once: what it says, and the case that it gives."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the file, without its folder.
-    sha256 : str
-        SHA-256 of the file's bytes, in hexadecimal.
-    values : mapping of str to object
-        Its keys and values, as YAML has them.
-    case : Case
-        The case.
-    """
-
-    name: str
-    sha256: str
-    values: Mapping[str, object]
+    name: str  #: without its folder
+    sha256: str  #: of the file's bytes, in hexadecimal
+    values: Mapping[str, object]  #: by key, as YAML has them
     case: Case
 
     @property
