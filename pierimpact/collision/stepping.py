@@ -205,10 +205,8 @@ def advance(
 ) -> tuple[State, Real]:
     """Return the state after one step, at most up to the first change, and the step's length."""
     where = ops.where
-    functions, initial = (
-        event_functions(parameters, state, motion, ops),
-        rates(motion, state.position),
-    )
+    functions = event_functions(parameters, state, motion, ops)
+    initial = rates(motion, state.position)
     longest = longest_step(motion, ops)
     h = trial_step(longest, initial, functions, ops)
     count = terms_needed(ops.largest(h / longest))

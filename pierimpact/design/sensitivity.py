@@ -110,9 +110,7 @@ def sensitivity(
     return Sensitivity(**_reactions(collisions))  # type: ignore[arg-type]
 
 
-def _reactions(
-    collisions: Mapping[str, Mapping[float, Collision]],
-) -> dict[str, Variation | None]:
+def _reactions(collisions: Mapping[str, Mapping[float, Collision]]) -> dict[str, Variation | None]:
     """Return the variations by name, None for those without a value; all in one go."""
     together = [collision for part in collisions.values() for collision in part.values()]
     trucks = [collision.truck for collision in together]
