@@ -73,20 +73,11 @@ class CollisionHistory:
     """The motion of one collision, evaluated from its exact pieces.
 
     The peaks are located on the pieces themselves; the arrays are samples, dense enough to draw.
-
-    Parameters
-    ----------
-    collision : Collision
-        Truck, pier and speed.
-    steps : list of (State, LinearMotion, float)
-        Start, equations of motion, and length [s] of each step.
-    end : State
-        The last state.
     """
 
     collision: Collision
     steps: list[RecordedStep] = field(repr=False)
-    end: State = field(repr=False)
+    end: State = field(repr=False)  #: the last state
 
     @property
     def truck(self) -> Truck:

@@ -104,12 +104,7 @@ def _yaml_values(content: bytes) -> dict[str, object]:
 def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:
     """Return the case of keys and values as a case file has them; None counts as not given.
 
-    Parameters
-    ----------
-    values : mapping of str to object
-        Values as typed, by key.
-    folder : str or Path, optional
-        Folder that a relative path of a truck file starts from.
+    A relative path of a truck file starts from `folder`.
 
     Raises
     ------
@@ -134,17 +129,12 @@ def case_from_notebook(namespace: Mapping[str, object]) -> Case:
     """Return the case that a notebook's parameters describe.
 
     Every plain value among the notebook's variables is taken for a key, so that a misspelt one
-    is found even though papermill passes it on.
+    is found even though papermill passes it on. Errors as in `case_from`.
 
     Parameters
     ----------
     namespace : mapping of str to object
         The notebook's variables, `globals()`.
-
-    Raises
-    ------
-    InputError
-        When a key is unknown or missing, or a value breaks a rule.
     """
     values = {
         name: value
@@ -157,19 +147,9 @@ def case_from_notebook(namespace: Mapping[str, object]) -> Case:
 
 
 def concrete_modulus(strength: float) -> float:
-    """Elastic modulus E = 4700 √f_c' of normal-weight concrete, both in MPa, as in ACI 318.
+    """Return the elastic modulus [Pa] of normal-weight concrete of a compressive strength [Pa].
 
-    From memory, not read in the standard: unverified.
-
-    Parameters
-    ----------
-    strength : float
-        Compressive strength f_c' [Pa].
-
-    Returns
-    -------
-    float
-        Elastic modulus [Pa].
+    E = 4700 √f_c', both in MPa, as in ACI 318: from memory, not read in the standard, unverified.
     """
     return 4700e6 * math.sqrt(strength / 1e6)
 
