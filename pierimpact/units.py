@@ -2,7 +2,6 @@
 
 import math
 import re
-from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -136,22 +135,20 @@ def _dimensions(dimension: str) -> dict[str, float] | None:
     return unit[1] if unit else None
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(NamedTuple):
     """How a kind of value is printed.
 
-    Parameters
-    ----------
-    si, us : tuple of (str, str)
-        Unit as it is parsed and as it is printed, in either system.
-    digits : int
-        Significant figures. A step that later steps build on keeps five, so that a check by
-        hand from the printed values comes out at the four printed of a result.
+    A step that later steps build on keeps five significant figures, so that a check by hand from
+    the printed values comes out at the four printed of a result.
     """
 
-    si: tuple[str, str]
+    si: tuple[str, str]  #: unit as it is parsed and as it is printed
     us: tuple[str, str]
-    digits: int
+    digits: int  #: significant figures
+
+    def unit(self, system: str) -> tuple[str, str]:
+        """Return the unit in a system, as it is parsed and as it is printed."""
+        return self.si if system == "SI" else self.us
 
 
 QUANTITIES = {
@@ -211,8 +208,7 @@ class Printed(NamedTuple):
 
 def unit_size(quantity: str, system: str) -> float:
     """Return how large the unit is that a kind of value is printed in, in SI units."""
-    kind = QUANTITIES[quantity]
-    expression = (kind.si if system == "SI" else kind.us)[0]
+    expression, _ = QUANTITIES[quantity].unit(system)
     unit = _unit(expression) if expression else (1.0, {})
     assert unit is not None
     return unit[0]
@@ -220,8 +216,7 @@ def unit_size(quantity: str, system: str) -> float:
 
 def unit_of(quantity: str, system: str) -> str:
     """Return the unit as it is printed, such as "kN·m"."""
-    kind = QUANTITIES[quantity]
-    return (kind.si if system == "SI" else kind.us)[1]
+    return QUANTITIES[quantity].unit(system)[1]
 
 
 def printed(value: float, quantity: str, system: str, *, given: bool = False) -> Printed:

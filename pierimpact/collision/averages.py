@@ -1,5 +1,6 @@
 """Moving averages of the contact force, as crash tests report it."""
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -12,18 +13,10 @@ Array = NDArray[np.float64]
 
 
 class AverageForce(NamedTuple):
-    """The largest moving average of the contact force.
+    """The largest moving average of the contact force."""
 
-    Parameters
-    ----------
-    force : float
-        Its value [N].
-    start : float
-        When its window begins after first touch; negative where it begins before [s].
-    """
-
-    force: float
-    start: float
+    force: float  #: its value [N]
+    start: float  #: when its window begins after first touch; negative where before it [s]
 
 
 def largest_average_force(history: CollisionHistory, window: float) -> AverageForce:
@@ -51,31 +44,25 @@ def largest_average_force(history: CollisionHistory, window: float) -> AverageFo
     end = float(time[-1])
     if window > end:
         raise InputError(f"window must be at most the history's {end:g} s, got {window:g}")
+
+    def impulse_at(t: Array | float) -> Array:
+        # It is zero before first touch, and its slope is the force.
+        return hermite(time, impulse, force, np.maximum(t, 0.0))
+
+    def average(start: Array | float) -> Array:
+        return (impulse_at(start + window) - impulse_at(start)) / window
+
     # Between neighbouring starts neither end of the window passes a sample.
     starts = np.concatenate((time, time - window))
     starts = np.unique(starts[(starts >= -window) & (starts <= end - window)])
-    average = _at(starts + window, time, impulse, force) - _at(starts, time, impulse, force)
-    average /= window
-    rate = (np.interp(starts + window, time, force) - _before(starts, time, force)) / window
-    best = int(np.argmax(average))
-    found = AverageForce(float(average[best]), float(starts[best]))
+    averages = average(starts)
+    rate = np.interp(starts + window, time, force) - np.interp(starts, time, force, left=0.0)
+    best = int(np.argmax(averages))
+    found = AverageForce(float(averages[best]), float(starts[best]))
     # The maximum lies where the rate passes zero, on one of the two sides of the best start.
-    for left in (best - 1, best):
-        right = left + 1
-        if left < 0 or right == len(starts) or not rate[left] > 0.0 > rate[right]:
-            continue
-        start = starts[left] + rate[left] / (rate[left] - rate[right]) * (
-            starts[right] - starts[left]
-        )
-        gained = _at(start + window, time, impulse, force) - _at(start, time, impulse, force)
-        found = max(found, AverageForce(float(gained) / window, float(start)))
+    for left, right in pairwise(range(max(best - 1, 0), min(best + 2, len(starts)))):
+        if rate[left] > 0.0 > rate[right]:
+            share = rate[left] / (rate[left] - rate[right])
+            start = float(starts[left] + share * (starts[right] - starts[left]))
+            found = max(found, AverageForce(float(average(start)), start))
     return found
-
-
-def _at(t: Array | float, time: Array, impulse: Array, force: Array) -> Array:
-    """Return the impulse at any times; it is zero before first touch, and force is its slope."""
-    return hermite(time, impulse, force, np.maximum(t, 0.0))
-
-
-def _before(t: Array, time: Array, force: Array) -> Array:
-    return np.where(t < 0.0, 0.0, np.interp(t, time, force))

@@ -85,11 +85,7 @@ def _constant_accelerations(motion: LinearMotion) -> tuple[Real, Real]:
 
 
 def time_without_change(
-    parameters: Parameters,
-    state: State,
-    motion: LinearMotion,
-    vibration: FreeVibration,
-    ops: Ops,
+    parameters: Parameters, state: State, motion: LinearMotion, vibration: FreeVibration, ops: Ops
 ) -> Real:
     """Return a time in which no regime can change, NO_BOUND where none ever will."""
     where, lib = ops.where, ops.lib

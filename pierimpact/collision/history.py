@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,60 +45,27 @@ def hermite(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
     return np.asarray(left + length * s * (1.0 - s) * turn)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Peak:
-    """A peak of the reaction.
+class Peak(NamedTuple):
+    """A peak of the reaction."""
 
-    Parameters
-    ----------
-    reaction : float
-        Its value [N].
-    time : float
-        When it occurs after first touch [s].
-    """
-
-    reaction: float
-    time: float
+    reaction: float  #: its value [N]
+    time: float  #: when it occurs after first touch [s]
 
 
-@dataclass(frozen=True, kw_only=True)
-class EnergyShares:
-    """Where the truck's energy is, each an array of shape (n,) at the history's times [J].
+class EnergyShares(NamedTuple):
+    """Where the truck's energy is, each an array of shape (n,) at the history's times [J]."""
 
-    Parameters
-    ----------
-    kinetic : ndarray
-        Of engine, body and pier.
-    pier_elastic : ndarray
-        Stored in the pier's spring.
-    truck_elastic : ndarray
-        Stored in the crush springs, given back on unloading.
-    crush : ndarray
-        Dissipated by plastic crush.
-    friction : ndarray
-        Dissipated by the friction on the body.
-    damping : ndarray
-        Dissipated by the pier's damper.
-    """
-
-    kinetic: Array
-    pier_elastic: Array
-    truck_elastic: Array
-    crush: Array
-    friction: Array
-    damping: Array
+    kinetic: Array  #: of engine, body and pier
+    pier_elastic: Array  #: stored in the pier's spring
+    truck_elastic: Array  #: stored in the crush springs, given back on unloading
+    crush: Array  #: dissipated by plastic crush
+    friction: Array  #: dissipated by the friction on the body
+    damping: Array  #: dissipated by the pier's damper
 
     @property
     def total(self) -> Array:
         """Sum of all shares, which stays at ½ (m1 + m2) V² [J]."""
-        return (
-            self.kinetic
-            + self.pier_elastic
-            + self.truck_elastic
-            + self.crush
-            + self.friction
-            + self.damping
-        )
+        return np.asarray(np.sum(self, axis=0))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,20 +73,11 @@ class CollisionHistory:
     """The motion of one collision, evaluated from its exact pieces.
 
     The peaks are located on the pieces themselves; the arrays are samples, dense enough to draw.
-
-    Parameters
-    ----------
-    collision : Collision
-        Truck, pier and speed.
-    steps : list of (State, LinearMotion, float)
-        Start, equations of motion, and length [s] of each step.
-    end : State
-        The last state.
     """
 
     collision: Collision
     steps: list[RecordedStep] = field(repr=False)
-    end: State = field(repr=False)
+    end: State = field(repr=False)  #: the last state
 
     @property
     def truck(self) -> Truck:
@@ -134,18 +92,14 @@ class CollisionHistory:
     @property
     def engine_peak(self) -> Peak:
         """Largest reaction before cargo contact; of all time where there is none."""
-        return Peak(
-            reaction=self.pier.stiffness * self.end.engine_peak, time=self.end.engine_peak_time
-        )
+        return Peak(self.pier.stiffness * self.end.engine_peak, self.end.engine_peak_time)
 
     @property
     def cargo_peak(self) -> Peak | None:
         """Largest reaction from cargo contact on; None without cargo contact."""
         if self.cargo_contact_time is None:
             return None
-        return Peak(
-            reaction=self.pier.stiffness * self.end.cargo_peak, time=self.end.cargo_peak_time
-        )
+        return Peak(self.pier.stiffness * self.end.cargo_peak, self.end.cargo_peak_time)
 
     @property
     def governing_peak(self) -> Peak:

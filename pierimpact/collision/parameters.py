@@ -7,10 +7,11 @@ for n collisions side by side.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pierimpact.checks import InputError, positive, positive_array, ratio_array
 from pierimpact.collision.groups import CHUNK, select
@@ -117,25 +118,22 @@ def parameter_chunks(
         listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise InputError(f"shapes must broadcast against each other, got {listed}") from None
     table = np.array([_row(item) for item in trucks]).reshape(-1, 12).T
-    return which.shape, _chunks(table, which, arrays)
+    flat = [array.reshape(-1) for array in (which, *arrays)]
+
+    def chunks() -> Iterator[tuple[slice, Parameters]]:
+        for first in range(0, which.size, CHUNK):
+            part = slice(first, first + CHUNK)
+            row, mass, stiffness, ratio, velocity = (array[part] for array in flat)
+            damping = damping_coefficient(mass, stiffness, ratio)
+            yield part, _parameters(table[:, row], mass, stiffness, damping, velocity)
+
+    return which.shape, chunks()
 
 
 def in_chunks(parameters: Parameters) -> Iterator[Parameters]:
     """Return the parameters of many collisions in order, CHUNK at a time."""
     for first in range(0, len(parameters.speed), CHUNK):
         yield select(parameters, slice(first, first + CHUNK))
-
-
-def _chunks(
-    table: NDArray[np.float64], which: NDArray[np.int_], arrays: Sequence[NDArray[np.float64]]
-) -> Iterator[tuple[slice, Parameters]]:
-    which = which.reshape(-1)
-    mass, stiffness, ratio, speed = (array.reshape(-1) for array in arrays)
-    for first in range(0, len(which), CHUNK):
-        part = slice(first, first + CHUNK)
-        damping = damping_coefficient(mass[part], stiffness[part], ratio[part])
-        numbers = mass[part], stiffness[part], damping, speed[part]
-        yield part, _parameters(table[:, which[part]], *numbers)
 
 
 def _row(truck: Truck) -> tuple[float, ...]:
@@ -149,13 +147,7 @@ def _row(truck: Truck) -> tuple[float, ...]:
 
 
 def _spring(mass: float, spring: CrushSpring) -> Spring:
-    return Spring(
-        mass,
-        spring.plateau_force,
-        spring.plateau_length,
-        spring.stiffness,
-        spring.unloading_stiffness,
-    )
+    return Spring(mass, *attrgetter(*Spring._fields[1:])(spring))
 
 
 def _parameters(truck: Any, *pier_and_speed: Real) -> Parameters:

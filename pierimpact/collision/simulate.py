@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,7 @@ from pierimpact.checks import not_negative
 from pierimpact.collision.history import CollisionHistory, RecordedStep
 from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.collision.regimes import LinearMotion, State
-from pierimpact.collision.stepping import Outcomes, propagate, propagate_all
+from pierimpact.collision.stepping import propagate, propagate_all
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
 
@@ -52,26 +52,15 @@ def simulate(
     return CollisionHistory(collision=collision, steps=steps, end=end)
 
 
-@dataclass(frozen=True, kw_only=True)
-class PeakReactions:
-    """The peaks of many collisions, each an array of the shape the inputs broadcast to.
+class PeakReactions(NamedTuple):
+    """The peaks of many collisions, each an array of the shape the inputs broadcast to."""
 
-    Parameters
-    ----------
-    engine, cargo : ndarray
-        Peak reactions before and from cargo contact on; `cargo` is nan without it [N].
-    engine_time, cargo_time : ndarray
-        When they occur [s].
-    engine_contact_time, cargo_contact_time : ndarray
-        When engine and cargo first meet the pier; nan where they do not [s].
-    """
-
-    engine: NDArray[np.float64]
-    cargo: NDArray[np.float64]
-    engine_time: NDArray[np.float64]
+    engine: NDArray[np.float64]  #: peak reaction before cargo contact [N]
+    cargo: NDArray[np.float64]  #: peak reaction from cargo contact on; nan without it [N]
+    engine_time: NDArray[np.float64]  #: when the peaks occur [s]
     cargo_time: NDArray[np.float64]
-    engine_contact_time: NDArray[np.float64]
-    cargo_contact_time: NDArray[np.float64]
+    engine_contact_time: NDArray[np.float64]  #: when engine and cargo first meet the pier; nan
+    cargo_contact_time: NDArray[np.float64]  #: where they do not [s]
 
     @property
     def governing(self) -> NDArray[np.float64]:
@@ -119,12 +108,6 @@ def peak_reactions(
     shape, chunks = parameter_chunks(truck, pier_mass, pier_stiffness, damping_ratio, speed)
     parameters = (chunk for _, chunk in chunks)
     flat = propagate_all(parameters, math.prod(shape), progress=progress)
-    found = Outcomes(*(outcome.reshape(shape) for outcome in flat))
-    return PeakReactions(
-        engine=np.multiply(pier_stiffness, found.engine_peak),
-        cargo=np.multiply(pier_stiffness, found.cargo_peak),
-        engine_time=found.engine_peak_time,
-        cargo_time=found.cargo_peak_time,
-        engine_contact_time=found.engine_contact,
-        cargo_contact_time=found.cargo_contact,
-    )
+    engine, cargo, *times = (outcome.reshape(shape) for outcome in flat)
+    engine, cargo = np.multiply(pier_stiffness, engine), np.multiply(pier_stiffness, cargo)
+    return PeakReactions(engine, cargo, *times)

@@ -205,10 +205,8 @@ def advance(
 ) -> tuple[State, Real]:
     """Return the state after one step, at most up to the first change, and the step's length."""
     where = ops.where
-    functions, initial = (
-        event_functions(parameters, state, motion, ops),
-        rates(motion, state.position),
-    )
+    functions = event_functions(parameters, state, motion, ops)
+    initial = rates(motion, state.position)
     longest = longest_step(motion, ops)
     h = trial_step(longest, initial, functions, ops)
     count = terms_needed(ops.largest(h / longest))
@@ -318,14 +316,14 @@ def propagate(
 
 
 class Outcomes(NamedTuple):
-    """Times of the first contacts, and peaks of x_p with their times, each of shape (n,)."""
+    """Peaks of x_p with their times, and times of the first contacts, each of shape (n,)."""
 
+    engine_peak: NDArray[np.float64]
+    cargo_peak: NDArray[np.float64]
+    engine_peak_time: NDArray[np.float64]
+    cargo_peak_time: NDArray[np.float64]
     engine_contact: NDArray[np.float64]
     cargo_contact: NDArray[np.float64]
-    engine_peak: NDArray[np.float64]
-    engine_peak_time: NDArray[np.float64]
-    cargo_peak: NDArray[np.float64]
-    cargo_peak_time: NDArray[np.float64]
 
 
 class Running(NamedTuple):

@@ -5,7 +5,6 @@ public copy of the code is taken as sure; all else says so wherever it is printe
 """
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from pierimpact.certainty import Certainty
@@ -31,39 +30,17 @@ class Sourced(NamedTuple):
         return self.status.standard_words
 
 
-@dataclass(frozen=True, kw_only=True)
-class CodeForce:
-    """The equivalent static force of a clause.
+class CodeForce(NamedTuple):
+    """The equivalent static force of a clause; what is not known here is empty or None."""
 
-    Parameters
-    ----------
-    code : str
-        Name of the code, and the case it is for.
-    along : Sourced
-        Force along the direction of travel [N].
-    clause : str, optional
-        Clause, table or annex; empty where it is not known here.
-    across : Sourced or None, optional
-        Force across it [N].
-    height : Sourced or None, optional
-        Height of application above the ground or carriageway [m]; None where it is not known
-        here.
-    stiffness : Sourced or None, optional
-        Stiffness of the vehicle that the force is calculated with [N/m].
-    edition : str, optional
-        Edition; empty where it is not known here.
-    note : str, optional
-        What else the clause says, or what the force does not cover.
-    """
-
-    code: str
-    along: Sourced
-    clause: str = ""
-    across: Sourced | None = None
-    height: Sourced | None = None
-    stiffness: Sourced | None = None
+    code: str  #: name of the code, and the case it is for
+    along: Sourced  #: force along the direction of travel [N]
+    clause: str = ""  #: clause, table or annex
+    across: Sourced | None = None  #: force across the travel [N]
+    height: Sourced | None = None  #: of application above the ground or carriageway [m]
+    stiffness: Sourced | None = None  #: of the vehicle, that the force is calculated with [N/m]
     edition: str = ""
-    note: str = ""
+    note: str = ""  #: what else the clause says, or what the force does not cover
 
     @property
     def verified(self) -> bool:
@@ -174,22 +151,14 @@ def en_1991_1_7_hard_impact(speed: float, mass: float, stiffness: float | None =
 
 def as_5100_2() -> CodeForce:
     """AS 5100.2, an older edition: 2000 kN, ultimate."""
-    return CodeForce(
-        code="AS 5100.2",
-        edition="older",
-        along=Sourced(2000e3, Certainty.READ),
-        note="An ultimate load.",
-    )
+    force = Sourced(2000e3, Certainty.READ)
+    return CodeForce("AS 5100.2", force, edition="older", note="An ultimate load.")
 
 
 def csa_s6_2000() -> CodeForce:
     """CSA S6-2000: 1400 kN at 1.2 m."""
-    return CodeForce(
-        code="CSA S6",
-        edition="2000",
-        along=Sourced(1400e3, Certainty.SECONDARY),
-        height=Sourced(1.2, Certainty.SECONDARY),
-    )
+    force, height = Sourced(1400e3, Certainty.SECONDARY), Sourced(1.2, Certainty.SECONDARY)
+    return CodeForce("CSA S6", force, height=height, edition="2000")
 
 
 def code_forces(speed: float, mass: float) -> tuple[CodeForce, ...]:

@@ -92,17 +92,10 @@ def warnings(parameters: Parameters) -> tuple[str, ...]:
 
 
 def sample(size: int, seed: int) -> Parameters:
-    """Return random collisions of the domain, as arrays of shape (size,).
+    """Return random collisions of the domain, as arrays of shape (size,), by a generator's seed.
 
     Pier frequency and mass are uniform in their logarithms, where the stiffness allows; all else
     is uniform, the friction on road or pier with equal chance.
-
-    Parameters
-    ----------
-    size : int
-        Number of collisions.
-    seed : int
-        Seed of the random numbers.
     """
     random = np.random.default_rng(seed)
 

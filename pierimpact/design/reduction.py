@@ -23,14 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, positive_array, ratio_array
 from pierimpact.collision.parameters import Parameters, Spring, in_chunks
-from pierimpact.collision.regimes import (
-    FREE,
-    STEEP,
-    Position,
-    State,
-    branch,
-    start,
-)
+from pierimpact.collision.regimes import FREE, STEEP, Position, State, branch, start
 from pierimpact.collision.series import Ops
 from pierimpact.collision.stepping import propagate_all
 from pierimpact.pier.equivalent import damping_coefficient
@@ -89,8 +82,7 @@ def exact_amplification(
         speed=one,
     )
     peak = propagate_all(in_chunks(parameters), len(beta), _at_contact).engine_peak
-    found: NDArray[np.float64] = (pier_stiffness * peak).reshape(arrays[0].shape)
-    return found
+    return np.reshape(pier_stiffness * peak, arrays[0].shape)
 
 
 def _at_contact(parameters: Parameters, ops: Ops) -> State:

@@ -1,8 +1,7 @@
 """How the reaction changes with speed, truck mass, impact height and pier frequency."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,25 +23,14 @@ _SHARES = np.linspace(0.5, 1.5, 31)
 _FREQUENCIES = np.geomspace(2.0, 200.0, 130)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Variation:
-    """Reactions while one quantity changes and all else stays.
+class Variation(NamedTuple):
+    """Reactions while one quantity changes and all else stays; arrays of shape (n,) in SI units."""
 
-    Parameters
-    ----------
-    values : ndarray, shape (n,)
-        Values of the quantity [SI].
-    engine, cargo : ndarray, shape (n,)
-        Peaks of the full model; `cargo` is nan without cargo contact [N].
-    design_engine, design_cargo : ndarray, shape (n,)
-        The same by the design procedure [N].
-    """
-
-    values: Array
-    engine: Array
-    cargo: Array
-    design_engine: Array
-    design_cargo: Array
+    values: Array  #: of the quantity
+    engine: Array  #: peak of the full model [N]
+    cargo: Array  #: the same; nan without cargo contact [N]
+    design_engine: Array  #: reaction by the design procedure [N]
+    design_cargo: Array  #: the same [N]
 
     @property
     def model(self) -> Array:
@@ -55,24 +43,17 @@ class Variation:
         return np.fmax(self.design_engine, self.design_cargo)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sensitivity:
+class Sensitivity(NamedTuple):
     """The variations about one case.
 
-    Parameters
-    ----------
-    speed, mass, impact_height, frequency : Variation
-        Over speed [m/s], total mass of the truck [kg], nominal impact height [m] and, at the
-        pier's own mass and damping, its frequency [Hz].
-    slower, faster, lighter, heavier : Variation or None
-        The speed changed by SPEED_CHANGE, the mass by MASS_CHANGE: one value each; None where
-        there is no such speed or mass.
+    The last four are for one value each, changed by SPEED_CHANGE or MASS_CHANGE; None where there
+    is no such speed or mass.
     """
 
-    speed: Variation
-    mass: Variation
-    impact_height: Variation
-    frequency: Variation
+    speed: Variation  #: over speed [m/s]
+    mass: Variation  #: over the truck's total mass [kg]
+    impact_height: Variation  #: over the nominal impact height [m]
+    frequency: Variation  #: over the pier's frequency, at its own mass and damping [Hz]
     slower: Variation | None
     faster: Variation | None
     lighter: Variation | None
@@ -129,9 +110,7 @@ def sensitivity(
     return Sensitivity(**_reactions(collisions))  # type: ignore[arg-type]
 
 
-def _reactions(
-    collisions: Mapping[str, Mapping[float, Collision]],
-) -> dict[str, Variation | None]:
+def _reactions(collisions: Mapping[str, Mapping[float, Collision]]) -> dict[str, Variation | None]:
     """Return the variations by name, None for those without a value; all in one go."""
     together = [collision for part in collisions.values() for collision in part.values()]
     trucks = [collision.truck for collision in together]
@@ -139,20 +118,13 @@ def _reactions(
     mass, stiffness, ratio, speed = np.array(piers).T
     peaks = peak_reactions(trucks, mass, stiffness, ratio, speed)
     design = design_reactions(trucks, mass, stiffness, ratio, speed, level="long")
-    found: dict[str, Variation | None] = {}
-    first = 0
-    for name, part in collisions.items():
-        where = slice(first, first + len(part))
-        first += len(part)
-        found[name] = (
-            Variation(
-                values=np.array(list(part)),
-                engine=peaks.engine[where],
-                cargo=peaks.cargo[where],
-                design_engine=design.engine[where],
-                design_cargo=design.cargo[where],
-            )
-            if part
-            else None
+    results = (peaks.engine, peaks.cargo, design.engine, design.cargo)
+    ends = np.cumsum([len(part) for part in collisions.values()])
+    return {
+        name: Variation(
+            np.array(list(part)), *(result[end - len(part) : end] for result in results)
         )
-    return found
+        if part
+        else None
+        for (name, part), end in zip(collisions.items(), ends, strict=True)
+    }

@@ -1,6 +1,6 @@
 """Engine and cargo spectra: reaction against pier frequency, by three routes."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,39 +19,20 @@ Array = NDArray[np.float64]
 FREQUENCIES = np.geomspace(2.0, 200.0, 200)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Spectrum:
+class Spectrum(NamedTuple):
     """A reaction spectrum for one truck, speed, pier mass and damping.
 
     Each array has the shape of `frequency`; reactions are nan where the body does not meet the
     pier, by that route.
-
-    Parameters
-    ----------
-    frequency : ndarray
-        Pier frequency f_p [Hz].
-    full_model : ndarray
-        Peak reaction by the full CMSD model [N].
-    two_degrees : ndarray
-        Peak reaction with the two-degree-of-freedom system's exact amplification in the hand
-        formula [N].
-    closed_form : ndarray
-        Design reaction at the level asked for [N].
-    frequency_ratio : ndarray
-        β = f_p/f_i [-].
-    exact : ndarray
-        Amplification S of the two-degree-of-freedom system [-].
-    closed : ndarray
-        Amplification S of the unified spectrum [-].
     """
 
-    frequency: Array
-    full_model: Array
-    two_degrees: Array
-    closed_form: Array
-    frequency_ratio: Array
-    exact: Array
-    closed: Array
+    frequency: Array  #: f_p of the pier [Hz]
+    full_model: Array  #: peak reaction by the full CMSD model [N]
+    two_degrees: Array  #: hand formula with the two-degree-of-freedom system's exact S [N]
+    closed_form: Array  #: design reaction at the level asked for [N]
+    frequency_ratio: Array  #: β = f_p/f_i [-]
+    exact: Array  #: amplification S of the two-degree-of-freedom system [-]
+    closed: Array  #: amplification S of the unified spectrum [-]
 
 
 def engine_spectrum(
@@ -123,13 +104,4 @@ def _spectrum(
         found[:, part] = (
             exact[f"R{i}"], closed[f"R{i}"], arguments[0], exact[f"S{i}"], amplification(*arguments)
         )  # fmt: skip
-    two_degrees, closed_form, ratio, exact_s, closed_s = found
-    return Spectrum(
-        frequency=frequency,
-        full_model=peaks.engine if i == 1 else peaks.cargo,
-        two_degrees=two_degrees,
-        closed_form=closed_form,
-        frequency_ratio=ratio,
-        exact=exact_s,
-        closed=closed_s,
-    )
+    return Spectrum(frequency, peaks.engine if i == 1 else peaks.cargo, *found)

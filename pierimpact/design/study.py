@@ -6,7 +6,7 @@ file. The coefficients in `pierimpact.design.procedure` are those of the file, r
 """
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -27,6 +27,7 @@ from pierimpact.vehicle.truck import Truck
 
 Array = NDArray[np.float64]
 Summary = dict[str, float]
+Statistics = Mapping[str, Callable[[Array], Any]]
 
 SIZE, SEED = 6000, 20170101
 #: So many of the cases are also followed one by one, for the speeds at contact.
@@ -83,20 +84,29 @@ def with_truck(parameters: Parameters, truck: Truck) -> Parameters:
     )
 
 
-def summary(ratios: Array) -> Summary:
-    """Return what is reported of predicted over CMSD reactions; pairs with a nan are left out."""
-    ratios = ratios[np.isfinite(ratios)]
-    if not len(ratios):
-        return {"cases": 0}
-    return {
-        "cases": len(ratios),
-        "mean": float(ratios.mean()),
-        "coefficient of variation": float(ratios.std() / ratios.mean()),
-        "1st percentile": float(np.quantile(ratios, 0.01)),
-        "smallest": float(ratios.min()),
-        "99th percentile": float(np.quantile(ratios, 0.99)),
-        "largest": float(ratios.max()),
-    }
+#: What is reported of predicted over CMSD reactions.
+RATIO_STATISTICS: Statistics = {
+    "mean": np.mean,
+    "coefficient of variation": lambda ratios: ratios.std() / ratios.mean(),
+    "1st percentile": lambda ratios: np.quantile(ratios, 0.01),
+    "smallest": np.min,
+    "99th percentile": lambda ratios: np.quantile(ratios, 0.99),
+    "largest": np.max,
+}
+#: What is reported of errors, which are zero on average if all is well.
+ERROR_STATISTICS: Statistics = {
+    "mean": np.mean,
+    "standard deviation": np.std,
+    "smallest": np.min,
+    "largest": np.max,
+}
+
+
+def summary(values: Array, statistics: Statistics = RATIO_STATISTICS) -> Summary:
+    """Return the number of values and, if there are any, their statistics; nan is left out."""
+    values = values[np.isfinite(values)]
+    found = {name: float(of(values)) for name, of in statistics.items()} if len(values) else {}
+    return {"cases": len(values)} | found
 
 
 def assessment(
@@ -143,17 +153,10 @@ def speed_errors(parameters: Parameters) -> dict[str, dict[str, Summary]]:
     found: dict[str, dict[str, Summary]] = {}
     for level in LEVELS:
         values = design_values(parameters, level)
-        found[level] = {}
-        for name, body, speed in zip(("v1", "v2"), ("engine", "cargo"), exact, strict=True):
-            error = (values[name] - speed) / parameters.speed
-            error = error[np.isfinite(error)]
-            found[level][body] = {
-                "cases": len(error),
-                "mean": float(error.mean()),
-                "standard deviation": float(error.std()),
-                "smallest": float(error.min()),
-                "largest": float(error.max()),
-            }
+        found[level] = {
+            body: summary((values[name] - speed) / parameters.speed, ERROR_STATISTICS)
+            for name, body, speed in zip(("v1", "v2"), ("engine", "cargo"), exact, strict=True)
+        }
     return found
 
 
@@ -183,13 +186,20 @@ def fit(arguments: tuple[Array, Array, Array, Array], exact: Array) -> dict[str,
     return {name: float(value) for name, value in zip(COEFFICIENTS, found, strict=True)}
 
 
+def amplification_ratios(parameters: Parameters) -> dict[str, Summary]:
+    """Return summaries of the closed over the exact amplification by body."""
+    arguments = spectrum_arguments(parameters)
+    ratios = procedure.amplification(*arguments) / exact_amplification(*arguments)
+    engine, cargo = np.split(ratios, 2)
+    return {"engine": summary(engine), "cargo": summary(cargo)}
+
+
 def study(size: int = SIZE, seed: int = SEED) -> dict[str, Any]:
     """Run the study and return what goes into the file."""
     parameters = domain.sample(size, seed)
     arguments = spectrum_arguments(parameters)
-    exact = exact_amplification(*arguments)
-    closed = procedure.amplification(*arguments)
-    reactions = full_model(parameters)
+    exact = full_model(parameters)
+    predicted = {level: predictions(parameters, level) for level in LEVELS}
     return {
         "seed": seed,
         "size": size,
@@ -197,19 +207,15 @@ def study(size: int = SIZE, seed: int = SEED) -> dict[str, Any]:
             SYMBOLS[name].meaning: f"{low:g} to {high:g} {unit}"
             for name, (low, high, unit, _) in domain.DOMAIN.items()
         },
-        "fitted": fit(arguments, exact),
+        "fitted": fit(arguments, exact_amplification(*arguments)),
         "used": COEFFICIENTS,
-        "closed over exact amplification": {
-            "engine": summary(closed[:size] / exact[:size]),
-            "cargo": summary(closed[size:] / exact[size:]),
-        },
+        "closed over exact amplification": amplification_ratios(parameters),
         "predicted over CMSD": {
-            level: assessment(parameters, reactions, predictions(parameters, level))
-            for level in LEVELS
+            level: assessment(parameters, exact, found) for level, found in predicted.items()
         },
         "governing of the first cases, predicted over CMSD": {
-            level: (predictions(parameters, level).governing / reactions.governing)[:SHOWN].tolist()
-            for level in LEVELS
+            level: (found.governing / exact.governing)[:SHOWN].tolist()
+            for level, found in predicted.items()
         },
         "error of the contact speed over the truck's": speed_errors(
             select(parameters, slice(0, FOLLOWED))

@@ -24,27 +24,13 @@ NOTEBOOK_PARAMETERS = ("case_file", "case_sha256")
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
-    """A case that has passed every check, as objects of the core.
+    """A case that has passed every check, as objects of the core."""
 
-    Parameters
-    ----------
-    inputs : Inputs
-        Values by key, in SI units.
-    given : mapping of str to object
-        What was typed, by key, for the keys that were given.
-    column : PierColumn
-        The pier.
-    truck : Truck
-        The truck, with the mass of the case.
-    truck_file : TruckFile
-        The file of the truck, with the source and status of each parameter.
-    """
-
-    inputs: Inputs
-    given: Mapping[str, object]
+    inputs: Inputs  #: values by key, in SI units
+    given: Mapping[str, object]  #: what was typed, by key, for the keys that were given
     column: PierColumn
-    truck: Truck
-    truck_file: TruckFile
+    truck: Truck  #: with the mass of the case
+    truck_file: TruckFile  #: with the source and status of each parameter
 
     @property
     def impact_heights(self) -> tuple[float, ...]:
@@ -55,23 +41,11 @@ class Case:
 
 @dataclass(frozen=True, kw_only=True)
 class CaseFile:
-    """A case file, read once: what it says, and the case that it gives.
+    """A case file, read once: what it says, and the case that it gives."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the file, without its folder.
-    sha256 : str
-        SHA-256 of the file's bytes, in hexadecimal.
-    values : mapping of str to object
-        Its keys and values, as YAML has them.
-    case : Case
-        The case.
-    """
-
-    name: str
-    sha256: str
-    values: Mapping[str, object]
+    name: str  #: without its folder
+    sha256: str  #: of the file's bytes, in hexadecimal
+    values: Mapping[str, object]  #: by key, as YAML has them
     case: Case
 
     @property
@@ -130,12 +104,7 @@ def _yaml_values(content: bytes) -> dict[str, object]:
 def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:
     """Return the case of keys and values as a case file has them; None counts as not given.
 
-    Parameters
-    ----------
-    values : mapping of str to object
-        Values as typed, by key.
-    folder : str or Path, optional
-        Folder that a relative path of a truck file starts from.
+    A relative path of a truck file starts from `folder`.
 
     Raises
     ------
@@ -160,17 +129,12 @@ def case_from_notebook(namespace: Mapping[str, object]) -> Case:
     """Return the case that a notebook's parameters describe.
 
     Every plain value among the notebook's variables is taken for a key, so that a misspelt one
-    is found even though papermill passes it on.
+    is found even though papermill passes it on. Errors as in `case_from`.
 
     Parameters
     ----------
     namespace : mapping of str to object
         The notebook's variables, `globals()`.
-
-    Raises
-    ------
-    InputError
-        When a key is unknown or missing, or a value breaks a rule.
     """
     values = {
         name: value
@@ -183,19 +147,9 @@ def case_from_notebook(namespace: Mapping[str, object]) -> Case:
 
 
 def concrete_modulus(strength: float) -> float:
-    """Elastic modulus E = 4700 √f_c' of normal-weight concrete, both in MPa, as in ACI 318.
+    """Return the elastic modulus [Pa] of normal-weight concrete of a compressive strength [Pa].
 
-    From memory, not read in the standard: unverified.
-
-    Parameters
-    ----------
-    strength : float
-        Compressive strength f_c' [Pa].
-
-    Returns
-    -------
-    float
-        Elastic modulus [Pa].
+    E = 4700 √f_c', both in MPa, as in ACI 318: from memory, not read in the standard, unverified.
     """
     return 4700e6 * math.sqrt(strength / 1e6)
 

@@ -4,14 +4,7 @@ import datetime
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    ValidationError,
-    ValidationInfo,
-)
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo
 
 from pierimpact.checks import InputError, brief, known, not_negative, one_line
 from pierimpact.symbols import BY_KEY, dimension

@@ -5,18 +5,10 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from pierimpact.certainty import Certainty
-from pierimpact.checks import (
-    InputError,
-    brief,
-    did_you_mean,
-    known,
-    number,
-    one_line,
-    one_of,
-)
+from pierimpact.checks import InputError, brief, did_you_mean, known, number, one_line, one_of
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY, dimension
 from pierimpact.units import parse
@@ -27,64 +19,34 @@ _CATALOGUE = shipped("trucks")
 # Words for the status of a parameter; a parameter cited in the source paper was read there.
 _STATUSES = tuple(certainty for certainty in Certainty if certainty is not Certainty.CITED)
 _SPRINGS = ("engine_spring", "body_spring")
+_SPRING_PARAMETERS = tuple(CrushSpring.__dataclass_fields__)
 _PARAMETERS = (
     *("engine_mass", "body_mass", "friction_force", "friction_on"),
-    *(f"{spring}.{name}" for spring in _SPRINGS for name in CrushSpring.__dataclass_fields__),
+    *(f"{spring}.{name}" for spring in _SPRINGS for name in _SPRING_PARAMETERS),
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Parameter:
-    """One parameter of a truck file.
+class Parameter(NamedTuple):
+    """One parameter of a truck file."""
 
-    Parameters
-    ----------
-    name : str
-        Its key, such as "engine_spring.stiffness".
-    value : float or str
-        In SI units, or a word.
-    given : str
-        As the file has it, with its unit.
-    source : str
-        Where it comes from.
-    status : Certainty
-        How certain it is.
-    """
-
-    name: str
-    value: float | str
-    given: str
+    name: str  #: its key, such as "engine_spring.stiffness"
+    value: float | str  #: in SI units, or a word
+    given: str  #: as the file has it, with its unit
     source: str
     status: Certainty
 
 
 @dataclass(frozen=True, kw_only=True)
 class TruckFile:
-    """A truck, with all that its file says about it.
-
-    Parameters
-    ----------
-    truck : Truck
-        The truck.
-    description, source : str
-        What the file says of the truck as a whole.
-    status : Certainty
-        How certain the truck is as a whole.
-    parameters : tuple of Parameter
-        Its parameters, in the order of `Truck` and `CrushSpring`.
-    file_name : str
-        Name of the file, without its folder.
-    sha256 : str
-        SHA-256 of the file's bytes, in hexadecimal.
-    """
+    """A truck, with all that its file says about it."""
 
     truck: Truck
     description: str
     source: str
-    status: Certainty
-    parameters: tuple[Parameter, ...]
-    file_name: str
-    sha256: str
+    status: Certainty  #: of the truck as a whole
+    parameters: tuple[Parameter, ...]  #: in the order of `Truck` and `CrushSpring`
+    file_name: str  #: without its folder
+    sha256: str  #: of the file's bytes, in hexadecimal
 
     def __getitem__(self, name: str) -> Parameter:
         """Return the parameter called `name`."""
@@ -115,17 +77,7 @@ def load_truck(name_or_path: str | Path) -> Truck:
 def read_truck_file(name_or_path: str | Path, folder: str | Path = ".") -> TruckFile:
     """Return a truck with the source and status of each of its parameters.
 
-    Parameters
-    ----------
-    name_or_path : str or Path
-        Name in the catalogue, or path of a truck file (ending in .toml).
-    folder : str or Path, optional
-        Folder that a relative path starts from.
-
-    Raises
-    ------
-    InputError
-        When there is no such truck, or its file breaks a rule.
+    Argument and errors as in `load_truck`; a relative path starts from `folder`.
     """
     text = str(name_or_path)
     if text in truck_names():
@@ -165,10 +117,9 @@ def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile
         known(key, _PARAMETERS, "a truck parameter")
     parameters = tuple(_parameter(key, entries.get(key)) for key in _PARAMETERS)
     values: dict[str, Any] = {parameter.name: parameter.value for parameter in parameters}
-    own = {key: value for key, value in values.items() if "." not in key}
-    own |= {spring: _spring(spring, values) for spring in _SPRINGS}
+    values |= {spring: _take_spring(spring, values) for spring in _SPRINGS}
     return TruckFile(
-        truck=Truck(name=name, source=source, **own),
+        truck=Truck(name=name, source=source, **values),
         description=description,
         source=source,
         status=certainty,
@@ -209,20 +160,15 @@ def _parameter(name: str, entry: object) -> Parameter:
     else:
         given = f"{number(f'{name}.value', value):.15g} {texts['unit']}"
         value = parse(name, given, kind)
-    return Parameter(
-        name=name,
-        value=value,
-        given=given,
-        source=texts["source"],
-        status=_certainty(f"{name}.status", texts["status"]),
-    )
+    status = _certainty(f"{name}.status", texts["status"])
+    return Parameter(name, value, given, texts["source"], status)
 
 
-def _spring(spring: str, values: Mapping[str, Any]) -> CrushSpring:
+def _take_spring(spring: str, values: dict[str, Any]) -> CrushSpring:
+    """Return a spring of its values, which are removed from `values`."""
+    own = {name: values.pop(f"{spring}.{name}") for name in _SPRING_PARAMETERS}
     try:
-        return CrushSpring(
-            **{name: values[f"{spring}.{name}"] for name in CrushSpring.__dataclass_fields__}
-        )
+        return CrushSpring(**own)
     except InputError as error:
         raise InputError(f"{spring}.{error}") from None
 

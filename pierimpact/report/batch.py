@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from importlib import import_module
 from pathlib import Path
 from threading import Event, Lock
@@ -146,8 +146,9 @@ class _Stopped(BaseException):
 def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[Report | Failure]:
     """Return the report or failure of each case, in order."""
     stop, lock, stages_of_each = Event(), Lock(), stages()
+    results: dict[Path, Report | Failure] = {}
 
-    def write(case: Path) -> Report | Failure:
+    def write(case: Path) -> None:
         left = stages_of_each
 
         def on_stage() -> None:
@@ -159,12 +160,11 @@ def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[
                 left -= 1
 
         try:
-            return _write_one(case, output_dir, on_stage)
+            results[case] = _write_one(case, output_dir, on_stage)
         finally:
             with lock:
                 bar.update(left)
 
-    futures: list[Future[Report | Failure]] = []
     several = len(cases) > 1
     if several:
         import_libraries()
@@ -178,7 +178,7 @@ def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[
         ThreadPoolExecutor(_AT_ONCE) as executor,
     ):
         try:
-            futures += [executor.submit(write, case) for case in cases]
+            futures = [executor.submit(write, case) for case in cases]
             for done, future in enumerate(as_completed(futures), 1):
                 future.result()
                 if several:
@@ -187,10 +187,10 @@ def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[
             stop.set()
             executor.shutdown(cancel_futures=True)
             if isinstance(error, KeyboardInterrupt):
-                written = sum(map(_is_written, futures))
+                written = sum(isinstance(result, Report) for result in results.values())
                 raise KeyboardInterrupt(f"{written} of {len(cases)} reports written") from None
             raise
-    return [future.result() for future in futures]
+    return [results[case] for case in cases]
 
 
 def _write_one(case: Path, output_dir: Path, on_stage: Callable[[], object]) -> Report | Failure:
@@ -205,12 +205,6 @@ def _write_one(case: Path, output_dir: Path, on_stage: Callable[[], object]) -> 
         return Failure(case, f"{case.name}: {_line(reason_of(error))}", bad_input=False)
     finally:
         _close_event_loop()
-
-
-def _is_written(future: Future[Report | Failure]) -> bool:
-    if future.cancelled() or future.exception() is not None:
-        return False
-    return isinstance(future.result(), Report)
 
 
 def _close_event_loop() -> None:

@@ -20,30 +20,14 @@ from pierimpact.pier.member_forces import MemberForces
 
 @dataclass(frozen=True, kw_only=True)
 class Calculation:
-    """A case, calculated.
-
-    Parameters
-    ----------
-    case : Case
-        What was asked.
-    struck : StruckColumn
-        The column under a unit force at the nominal impact height.
-    pier : EquivalentPier
-        The pier as one degree of freedom.
-    history : CollisionHistory
-        The collision by the full model.
-    design : DesignReaction
-        The design procedure at its long level.
-    trial : CollisionHistory or None
-        The collision at the lower nominal height, where the height was left to the rule.
-    """
+    """A case, calculated."""
 
     case: Case
-    struck: StruckColumn
+    struck: StruckColumn  #: the column under a unit force at the nominal impact height
     pier: EquivalentPier
-    history: CollisionHistory
-    design: DesignReaction
-    trial: CollisionHistory | None
+    history: CollisionHistory  #: the collision by the full model
+    design: DesignReaction  #: the design procedure at its long level
+    trial: CollisionHistory | None  #: at the lower nominal height, where a rule decides on it
 
     @property
     def governing_peak(self) -> Peak:

@@ -262,25 +262,12 @@ def _breakable(text: str) -> str:
 
 
 def compile_typst(source: str, date: str) -> tuple[bytes, str]:
-    """Return the PDF of a Typst document, the same bytes for the same source and date.
+    """Return the PDF of a Typst document, and the characters that no font has, each once.
 
-    Where the text is in a script that the fonts at hand lack, such as Chinese, the fonts of the
-    system are searched too. A character that no font has prints as its number, such as [U+6865],
-    rather than as an empty box, which the PDF's standards do not allow.
-
-    Parameters
-    ----------
-    source : str
-        The document.
-    date : str
-        Its date, as 2026-01-31.
-
-    Returns
-    -------
-    pdf : bytes
-        The PDF.
-    missing : str
-        The characters that no font has, each once.
+    The bytes are the same for the same source and date, which is written as 2026-01-31. Where the
+    text is in a script that the fonts at hand lack, such as Chinese, the fonts of the system are
+    searched too. A character that no font has prints as its number, such as [U+6865], rather than
+    as an empty box, which the PDF's standards do not allow.
     """
     compiled: Callable[..., bytes] = typst.compile
     options: dict[str, Any] = {

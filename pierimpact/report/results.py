@@ -59,36 +59,24 @@ class Results(BaseModel):
         case, history, design = calculation.case, calculation.history, calculation.design
         inputs, cargo = case.inputs, history.cargo_peak
         sizes = (inputs.column_diameter, inputs.column_width, inputs.column_depth)
-        return cls(
-            project=inputs.project,
-            job_number=inputs.job_number,
-            element=inputs.element,
-            prepared_by=inputs.prepared_by,
-            checked_by=inputs.checked_by,
-            revision=inputs.revision,
-            date=inputs.date,
-            units=inputs.units,
-            column_shape=inputs.column_shape,
-            column_sizes=tuple(size for size in sizes if size is not None),
-            column_height=inputs.column_height,
-            base=inputs.base,
-            top=inputs.top,
-            truck=case.truck.name,
-            truck_status=case.truck_file.status,
-            truck_mass=case.truck.mass,
-            speed=inputs.speed,
-            assumed=len(inputs.assumed),
-            impact_height=calculation.struck.impact_height,
-            pier_frequency=calculation.pier.frequency,
-            engine_contact=history.engine_contact_time is not None,
-            engine_peak=history.engine_peak.reaction,
-            cargo_peak=None if cargo is None else cargo.reaction,
-            design_reaction=calculation.design_force,
-            governs=calculation.governs,
-            utilisations=calculation.utilisations,
-            outside=design.outside,
-            overlapping=design.overlapping,
-        )
+        calculated = {
+            "column_sizes": tuple(size for size in sizes if size is not None),
+            "truck": case.truck.name,
+            "truck_status": case.truck_file.status,
+            "truck_mass": case.truck.mass,
+            "assumed": len(inputs.assumed),
+            "impact_height": calculation.struck.impact_height,
+            "pier_frequency": calculation.pier.frequency,
+            "engine_contact": history.engine_contact_time is not None,
+            "engine_peak": history.engine_peak.reaction,
+            "cargo_peak": None if cargo is None else cargo.reaction,
+            "design_reaction": calculation.design_force,
+            "governs": calculation.governs,
+            "utilisations": calculation.utilisations,
+            "outside": design.outside,
+            "overlapping": design.overlapping,
+        }
+        return cls.model_validate(inputs.model_dump() | calculated)
 
     @classmethod
     def in_notebook(cls, notebook: NotebookNode) -> Self:

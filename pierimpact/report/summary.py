@@ -4,12 +4,12 @@ import csv
 import io
 import re
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pierimpact
 from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph, TitleBlock
 from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
-from pierimpact.report.document.numbered import Column, Table
+from pierimpact.report.document.numbered import Column, Table, columns
 from pierimpact.report.results import Results
 from pierimpact.report.sheet.summary import limits_of_the_study
 from pierimpact.symbols import BY_KEY
@@ -26,26 +26,69 @@ class Row(NamedTuple):
     remarks: Sequence[str]  #: warnings of its report, or why there is none
 
 
-class _Quantity(NamedTuple):
-    """A value of each case: a column of a table and one of the CSV."""
+class _Column(NamedTuple):
+    """A value of each case: a column of the CSV and, if it has a heading, of a table."""
 
-    attribute: str  #: of Results
-    heading: Piece
-    quantity: str
+    name: str  #: of the value
+    heading: Piece = ""
+    quantity: str = ""  #: of a number
     given: bool = False
+    wide: bool = False
+    missing: str = ""  #: what a table shows in place of no value
+
+    def unit(self, system: str) -> str:
+        """Return the unit in brackets after a space, or nothing where there is none."""
+        unit = unit_of(self.quantity, system) if self.quantity else ""
+        return f" [{unit}]" if unit else ""
+
+    def of_table(self, system: str) -> Column:
+        """Return the column of a table."""
+        heading = (self.heading, self.unit(system)) if self.unit(system) else self.heading
+        align = "decimal" if self.quantity else "left"
+        return Column(heading=heading, align=align, wide=self.wide)
+
+    def cell(self, value: Any, system: str) -> str:
+        """Return a value as a table shows it."""
+        if not value and not isinstance(value, float):
+            return self.missing
+        if self.quantity == "ratio":
+            return rounded(value, 3)
+        if not self.quantity:
+            return str(value)
+        return printed(value, self.quantity, system, given=self.given).number
+
+    def field(self, value: Any, system: str) -> Any:
+        """Return a value as the CSV has it: unrounded, and None, an empty field, if missing."""
+        if isinstance(value, str):
+            return no_formula(value)
+        return value / unit_size(self.quantity, system) if value is not None else None
 
 
-_GIVEN = tuple(
-    _Quantity(key, Tex(BY_KEY[key].latex), BY_KEY[key].quantity, given=True)
-    for key in ("truck_mass", "speed", "impact_height")
+_CHECKS = ("shear", "moment")
+_CASE = (
+    _Column("project", "Project", wide=True),
+    _Column("job number"),
+    _Column("element", "Element", wide=True),
+    _Column("column", "Column", wide=True),
+    _Column("truck", "Truck"),
+    *(
+        _Column(key.replace("_", " "), Tex(BY_KEY[key].latex), BY_KEY[key].quantity, given=True)
+        for key in ("truck_mass", "speed", "impact_height")
+    ),
 )
 _RESULTS = (
-    _Quantity("pier_frequency", Tex(r"f_\mathrm{p}"), "frequency"),
-    _Quantity("engine_peak", "Engine peak", "force"),
-    _Quantity("cargo_peak", "Cargo peak", "force"),
-    _Quantity("design_reaction", "Design reaction", "force"),
+    _Column("pier frequency", Tex(r"f_\mathrm{p}"), "frequency"),
+    _Column("engine peak", "Engine peak", "force"),
+    _Column("cargo peak", "Cargo peak", "force", missing=NONE),
+    _Column("design reaction", "Design reaction", "force"),
+    _Column("governs", "Governs"),
+    *(
+        _Column(f"utilisation in {check}", f"Utilisation, {check}", "ratio", missing="—")
+        for check in _CHECKS
+    ),
+    _Column("status"),
+    _Column("remarks", "Remarks", wide=True, missing="—"),
 )
-_UTILISATIONS = ("shear", "moment")
 
 
 def summary_blocks(rows: Sequence[Row]) -> list[Block]:
@@ -56,7 +99,26 @@ def summary_blocks(rows: Sequence[Row]) -> list[Block]:
     failures = [row.remarks for row in rows if row.results is None]
     if failures:
         blocks.append(Notice(heading="Not calculated", body=["; ".join(why) for why in failures]))
-    blocks += [_results_table(rows, system), _cases_table(rows, system)]
+    checked = {check for result in results.values() for check in result.utilisations}
+    left_out = {f"utilisation in {check}" for check in _CHECKS if check not in checked}
+    if len({result.project for result in results.values()}) == 1:
+        left_out.add("project")  # it stands in the title block
+    results_caption = (
+        "Results. Engine and cargo peak are those of the full model; the design reaction is the "
+        "larger of its and of the design procedure’s, and ",
+        Tex(r"f_\mathrm{p}"),
+        " the frequency of the pier.",
+    )
+    cases_caption = (
+        *("Cases: total mass of the truck ", Tex("m_1 + m_2"), ", speed at first touch "),
+        *(Tex("V"), " and nominal impact height ", Tex(r"z_\mathrm{n}"), "."),
+    )
+    for label, caption, of in (
+        ("tab-results", results_caption, _RESULTS),
+        ("tab-cases", cases_caption, _CASE),
+    ):
+        shown = [column for column in of if column.heading and column.name not in left_out]
+        blocks.append(_table(label, caption, rows, system, shown))
     if len({result.units for result in results.values()}) > 1:
         blocks.append(Paragraph("The reports are not all in the same units; this table is in SI."))
     blocks.append(
@@ -78,32 +140,13 @@ def summary_csv(rows: Sequence[Row]) -> str:
     Text is in quotes; none of it can be taken for a formula.
     """
     system = _system(_calculated(rows).values())
-    columns = (*_GIVEN, *_RESULTS)
-    quantities = [
-        f"{column.attribute.replace('_', ' ')} [{unit_of(column.quantity, system)}]"
-        for column in columns
-    ]
-    utilisations = [f"utilisation in {name}" for name in _UTILISATIONS]
-    words = ["case", "project", "job number", "element", "column", "truck"]
-    header = [*words, *quantities, "governs", *utilisations, "status", "remarks"]
+    shown = (_Column("case"), *_CASE, *_RESULTS)
     text = io.StringIO()
-    # In the order of the header; a value that is not there is an empty field.
     writer = csv.writer(text, quoting=csv.QUOTE_NONNUMERIC)
-    writer.writerow(header)
-    for name, result, remarks in rows:
-        values: list[str | float | None] = [None] * (len(header) - 3)
-        if result is not None:
-            values = [
-                *(result.project, result.job_number, result.element, _column(result, system)),
-                result.truck,
-                *(_in_unit(column, result, system) for column in columns),
-                result.governs,
-                *(result.utilisations.get(check) for check in _UTILISATIONS),
-            ]
-        status = "not calculated" if result is None else "calculated"
-        all_remarks = "; ".join((*_remarks(result, system), *remarks))
-        cells = [name, *values, status, all_remarks]
-        writer.writerow([no_formula(cell) if isinstance(cell, str) else cell for cell in cells])
+    writer.writerow([column.name + column.unit(system) for column in shown])
+    for row in rows:
+        values = _values(row, system)
+        writer.writerow([column.field(values.get(column.name), system) for column in shown])
     return text.getvalue()
 
 
@@ -173,106 +216,38 @@ def _headline(rows: Sequence[Row], system: str) -> Block:
     return Headline(results=entries)
 
 
-def _results_table(rows: Sequence[Row], system: str) -> Block:
-    """Return the results of the calculated cases, a row each."""
-    results = _calculated(rows)
-    remarks = {row.name: row.remarks for row in rows}
-    checks = [
-        check
-        for check in _UTILISATIONS
-        if any(check in result.utilisations for result in results.values())
-    ]
-    cells: list[list[Inline]] = [
-        [
-            _link(name),
-            *(_shown(column, result, system) for column in _RESULTS),
-            result.governs,
-            *(
-                rounded(result.utilisations[check], 3) if check in result.utilisations else "—"
-                for check in checks
-            ),
-            "; ".join((*_remarks(result, system), *remarks[name])) or "—",
-        ]
-        for name, result in results.items()
-    ]
+def _table(
+    label: str, caption: Inline, rows: Sequence[Row], system: str, shown: Sequence[_Column]
+) -> Table:
+    """Return a table of the calculated cases, a row each."""
+    cases = [_values(row, system) for row in rows if row.results is not None]
     return Table(
-        label="tab-results",
-        caption=(
-            "Results. Engine and cargo peak are those of the full model; the design reaction is "
-            "the larger of its and of the design procedure’s, and ",
-            Tex(r"f_\mathrm{p}"),
-            " the frequency of the pier.",
-        ),
-        columns=[
-            Column(heading="Case"),
-            *(_heading(column, system) for column in _RESULTS),
-            Column(heading="Governs"),
-            *(Column(heading=f"Utilisation, {check}", align="decimal") for check in checks),
-            Column(heading="Remarks", wide=True),
+        label=label,
+        caption=caption,
+        columns=columns("Case", *(column.of_table(system) for column in shown)),
+        rows=[
+            [
+                Link(values["case"], f"{values['case']}.html"),
+                *(column.cell(values[column.name], system) for column in shown),
+            ]
+            for values in cases
         ],
-        rows=cells,
     )
 
 
-def _cases_table(rows: Sequence[Row], system: str) -> Block:
-    """Return column, truck and collision of the calculated cases, a row each."""
-    results = _calculated(rows)
-    # A project that all share stands in the title block.
-    projects = len({result.project for result in results.values()}) > 1
-    cells: list[list[Inline]] = [
-        [
-            _link(name),
-            *([result.project] if projects else []),
-            result.element,
-            _column(result, system),
-            result.truck,
-            *(_shown(column, result, system) for column in _GIVEN),
-        ]
-        for name, result in results.items()
-    ]
-    return Table(
-        label="tab-cases",
-        caption=(
-            "Cases: total mass of the truck ",
-            Tex("m_1 + m_2"),
-            ", speed at first touch ",
-            Tex("V"),
-            " and nominal impact height ",
-            Tex(r"z_\mathrm{n}"),
-            ".",
-        ),
-        columns=[
-            Column(heading="Case"),
-            *([Column(heading="Project", wide=True)] if projects else []),
-            Column(heading="Element", wide=True),
-            Column(heading="Column", wide=True),
-            Column(heading="Truck"),
-            *(_heading(column, system) for column in _GIVEN),
-        ],
-        rows=cells,
-    )
-
-
-def _link(name: str) -> Link:
-    return Link(name, f"{name}.html")
-
-
-def _heading(column: _Quantity, system: str) -> Column:
-    return Column(
-        heading=(column.heading, f" [{unit_of(column.quantity, system)}]"), align="decimal"
-    )
-
-
-def _in_unit(column: _Quantity, result: Results, system: str) -> float | None:
-    value = getattr(result, column.attribute)
-    return None if value is None else value / unit_size(column.quantity, system)
-
-
-def _shown(column: _Quantity, result: Results, system: str) -> str:
-    value = getattr(result, column.attribute)
-    if value is None:
-        return NONE
-    return printed(value, column.quantity, system, given=column.given).number
+def _values(row: Row, system: str) -> dict[str, Any]:
+    """Return the values of a case by their names, in SI; of a failure those there are."""
+    result = row.results
+    values = {
+        "case": row.name,
+        "status": "not calculated" if result is None else "calculated",
+        "remarks": "; ".join((*_remarks(result, system), *row.remarks)),
+    }
+    if result is None:
+        return values
+    values |= {name.replace("_", " "): value for name, value in result.model_dump().items()}
+    checks = {f"utilisation in {check}": result.utilisations.get(check) for check in _CHECKS}
+    return values | checks | {"column": _column(result, system)}
 
 
 def _column(result: Results, system: str) -> str:

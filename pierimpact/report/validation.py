@@ -10,19 +10,19 @@ from numpy.typing import NDArray
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import Parameters
 from pierimpact.design import domain
-from pierimpact.design.procedure import LEVELS, amplification
-from pierimpact.design.reduction import exact_amplification
+from pierimpact.design.procedure import LEVELS
 from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
 from pierimpact.design.study import (
+    ERROR_STATISTICS,
     FOLLOWED,
     SEED,
     SIZE,
     Reactions,
     Summary,
+    amplification_ratios,
     assessment,
     full_model,
     predictions,
-    spectrum_arguments,
     speed_errors,
     summary,
     with_truck,
@@ -30,7 +30,7 @@ from pierimpact.design.study import (
 from pierimpact.pier.equivalent import damping_coefficient, stiffness_at_frequency
 from pierimpact.plots import validation as spectrum_figures
 from pierimpact.report.document.blocks import Block
-from pierimpact.report.document.numbered import Column, Figure, Table
+from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.symbols import SYMBOLS
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
@@ -39,7 +39,6 @@ Array = NDArray[np.float64]
 
 _FEW = 2000  # cases are enough for one truck or one way out of the domain
 _RATIOS = ("mean", "coefficient of variation", "1st percentile", "smallest", "largest")
-_ERRORS = ("mean", "standard deviation", "smallest", "largest")
 
 #: A truck quite unlike the reference, to see how the formulas do with it: its parameters are round
 #: numbers, and those of no truck that was tested.
@@ -86,7 +85,7 @@ class Validation:
         return Table(
             label="tab-domain",
             caption="The studied domain: random values between these limits.",
-            columns=[*_columns("Value", "From", "To"), Column(heading="Unit")],
+            columns=columns(wide("Value"), decimal("From"), decimal("To"), "Unit"),
             rows=[
                 [SYMBOLS[name].heading, f"{low:g}", f"{high:g}", unit]
                 for name, (low, high, unit, _) in domain.DOMAIN.items()
@@ -141,19 +140,16 @@ class Validation:
             f"tab-{level}-{which}",
             f"Predicted over full-model reaction: {which}, {level} level.",
             "Pier frequency",
-            found,
+            {name.replace("all", "All"): row for name, row in found.items()},
         )
 
     def spectrum(self) -> Block:
         """Return how near the closed spectrum is to the exact one, over the domain."""
-        arguments = spectrum_arguments(self._case)
-        ratios = amplification(*arguments) / exact_amplification(*arguments)
-        engine, cargo = summary(ratios[: self.size]), summary(ratios[self.size :])
         return _statistics(
             "tab-spectrum",
             "Closed over exact amplification.",
             "Body",
-            {"Engine": engine, "Cargo": cargo},
+            {body.capitalize(): row for body, row in amplification_ratios(self._case).items()},
         )
 
     def contact_speeds(self) -> Block:
@@ -169,7 +165,7 @@ class Validation:
                 for level, bodies in found.items()
                 for body, errors in bodies.items()
             },
-            _ERRORS,
+            tuple(ERROR_STATISTICS),
             scale=100.0,
             decimals=2,
         )
@@ -250,11 +246,6 @@ def routes(truck: Truck, speed: float, pier_mass: float) -> Block:
     )
 
 
-def _columns(first: str, *others: str) -> list[Column]:
-    numbers = [Column(heading=name, align="decimal") for name in others]
-    return [Column(heading=first, wide=True), *numbers]
-
-
 def _both_levels(label: str, caption: str, heading: str, cases: dict[str, Parameters]) -> Table:
     """Return the ratios of the governing reaction for both levels."""
     exact = {name: full_model(case).governing for name, case in cases.items()}
@@ -277,11 +268,14 @@ def _statistics(
     decimals: int = 3,
 ) -> Table:
     """Return a table of the number of cases and the named statistics of each row."""
-    rows = {"All" if name == "all" else name: row for name, row in found.items()}
     return Table(
         label=label,
         caption=caption,
-        columns=_columns(heading, "Cases", *(name[0].upper() + name[1:] for name in names)),
+        columns=columns(
+            wide(heading),
+            decimal("Cases"),
+            *(decimal(name[0].upper() + name[1:]) for name in names),
+        ),
         rows=[
             [
                 name,
@@ -291,7 +285,7 @@ def _statistics(
                     for of in names
                 ),
             ]
-            for name, row in rows.items()
+            for name, row in found.items()
         ],
-        strong=[index for index, name in enumerate(rows) if name == "All"],
+        strong=[index for index, name in enumerate(found) if name == "All"],
     )

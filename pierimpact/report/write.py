@@ -151,21 +151,16 @@ def convert(
     """Write an executed notebook as HTML and as PDF; return the warnings."""
     exporters = import_module(_EXPORTERS)
 
-    def write_html() -> None:
-        page, _ = exporters.SheetHTMLExporter().from_notebook_node(notebook)
-        html.write_text(page, encoding="utf-8")
+    def write(exporter: Any, file: Path) -> list[str]:
+        document, resources = exporter().from_notebook_node(notebook)
+        file.write_bytes(document.encode() if isinstance(document, str) else document)
         on_stage()
-
-    def write_pdf() -> list[str]:
-        document, resources = exporters.SheetPDFExporter().from_notebook_node(notebook)
-        pdf.write_bytes(document)
-        on_stage()
-        return list(resources["warnings"])
+        return list(resources.get("warnings", []))
 
     with ThreadPoolExecutor(2) as executor:
-        html_written, pdf_written = executor.submit(write_html), executor.submit(write_pdf)
-        html_written.result()
-        return pdf_written.result()
+        html_written = executor.submit(write, exporters.SheetHTMLExporter, html)
+        pdf_written = executor.submit(write, exporters.SheetPDFExporter, pdf)
+        return html_written.result() + pdf_written.result()
 
 
 def reason_of(error: Exception) -> str:

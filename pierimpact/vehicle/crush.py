@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,7 +40,7 @@ class CrushSpring:
     unloading_stiffness: float
 
     def __post_init__(self) -> None:
-        for name in ("plateau_force", "plateau_length", "stiffness", "unloading_stiffness"):
+        for name in self.__dataclass_fields__:
             object.__setattr__(self, name, positive(name, getattr(self, name)))
         if self.unloading_stiffness < self.stiffness:
             raise InputError(
@@ -80,8 +79,7 @@ class CrushSpring:
         crush = np.asarray(crush, dtype=float)
         rise = self.stiffness * np.maximum(crush - self.plateau_length, 0.0)
         plateau = np.minimum(self.unloading_stiffness * crush, self.plateau_force)
-        envelope: NDArray[Any] = np.asarray(plateau + rise)
-        return envelope
+        return np.asarray(plateau + rise)
 
     def dissipated(self, largest_crush: ArrayLike) -> NDArray[np.float64]:
         """Energy dissipated by crushing to `largest_crush` and unloading.
@@ -107,5 +105,4 @@ class CrushSpring:
             + self.plateau_force * (crush - elastic)
             + 0.5 * self.stiffness * beyond**2
         )
-        lost: NDArray[Any] = np.asarray(area - 0.5 * force**2 / self.unloading_stiffness)
-        return lost
+        return np.asarray(area - 0.5 * force**2 / self.unloading_stiffness)

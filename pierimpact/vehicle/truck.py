@@ -49,11 +49,9 @@ class Truck:
     source: str = "not given"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "engine_mass", positive("engine_mass", self.engine_mass))
-        object.__setattr__(self, "body_mass", positive("body_mass", self.body_mass))
-        object.__setattr__(
-            self, "friction_force", not_negative("friction_force", self.friction_force)
-        )
+        rules = {"engine_mass": positive, "body_mass": positive, "friction_force": not_negative}
+        for name, rule in rules.items():
+            object.__setattr__(self, name, rule(name, getattr(self, name)))
         one_of("friction_on", self.friction_on, FRICTION_ENDS)
         for name in ("engine_spring", "body_spring"):
             if not isinstance(getattr(self, name), CrushSpring):

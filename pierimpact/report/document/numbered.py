@@ -33,6 +33,21 @@ class Column(Part):
     wide: bool = False
 
 
+def decimal(heading: Inline) -> Column:
+    """Return a column of numbers with their decimal points in line."""
+    return Column(heading=heading, align="decimal")
+
+
+def wide(heading: Inline) -> Column:
+    """Return a column that takes the width that the other columns leave."""
+    return Column(heading=heading, wide=True)
+
+
+def columns(*headings: Inline | Column) -> list[Column]:
+    """Return the columns of a table; those not given as `decimal` or `wide` are plain."""
+    return [part if isinstance(part, Column) else Column(heading=part) for part in headings]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Table(Block):
     """A table with a caption above it.
