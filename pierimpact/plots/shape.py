@@ -1,6 +1,7 @@
 """The column as one degree of freedom: its shape function, stiffness and mass."""
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -23,7 +24,7 @@ from pierimpact.plots.style import (
 Array = NDArray[np.float64]
 
 _SQUARE = "#d5ebe4"
-_SHAPE = {"color": GREEN, "linewidth": 2.6 * PIXEL}
+_SHAPE: Any = {"color": GREEN, "linewidth": 2.6 * PIXEL}
 # What depends on the impact height: its symbol and equation, the unit shown, and that in SI.
 _ALONG = {
     "stiffness": ("$k_\\mathrm{p}$ (Eq. 3)", "GN/m", 1e9),
