@@ -149,8 +149,8 @@ def test_stiffness_and_mass_along_a_column_are_those_of_the_impact():
         struck = column.struck_at(float(along.height[place]))
         assert along.stiffness[place] == struck.stiffness
         assert along.mass[place] == struck.mass
-    axes = shape.mass_panel(Figure(figsize=(4, 3)))
-    shape.draw_along(axes, along.height, along.mass, 1.2, 6.4, unit="t")
+    axes = shape.along_panel(Figure(figsize=(4, 3)), "mass")
+    shape.draw_along(axes, along.height, along.mass, 1.2, 6.4e3, quantity="mass")
     assert axes.lines[-1].get_xydata().tolist() == [[1.2, 6.4]]
     assert words(axes) == ["6.4 t"]
 
@@ -172,7 +172,7 @@ def test_bars_are_as_long_as_their_forces():
 @pytest.mark.parametrize("body", BODIES)
 def test_influences_to_either_side(body):
     changes = explorer_data.influences(USUAL)[body]
-    axes = influence.influence_panel(Figure(figsize=(4, 3)), "T", NAMES, 0.3)
+    axes = influence.influence_panel(Figure(figsize=(4, 3)), body, NAMES, 0.3)
     influence.draw_influence(axes, changes, body=body)
     widths = np.array([patch.get_width() for patch in axes.patches]).reshape(2, -1).T
     assert widths == pytest.approx(changes)
@@ -182,7 +182,7 @@ def test_influences_to_either_side(body):
 def test_a_peak_that_is_not_there_has_no_influences():
     changes = explorer_data.influences(at_speed(45.0))
     assert changes["cargo"] is None
-    axes = influence.influence_panel(Figure(figsize=(4, 3)), "T", NAMES, 0.3)
+    axes = influence.influence_panel(Figure(figsize=(4, 3)), "cargo", NAMES, 0.3)
     influence.draw_influence(axes, None, body="cargo")
     assert words(axes) == ["The cargo does not reach the pier."]
 

@@ -2,13 +2,11 @@
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from pierimpact.collision.history import CollisionHistory
 from pierimpact.plots.style import (
@@ -23,14 +21,18 @@ from pierimpact.plots.style import (
     SKY,
     VERMILION,
     key,
+    note,
     panel,
     round_up,
 )
 from pierimpact.units import printed, unit_size
 
 _TIME = "Time after first touch [ms]"
-_SPRINGS = {"engine spring": VERMILION, "body spring": BLUE}
-_THIN, _THICK = 1.2 * PIXEL, 2.2 * PIXEL
+_FORCES: dict[str, dict[str, Any]] = {
+    "engine spring": {"color": VERMILION, "linewidth": 1.2 * PIXEL},
+    "body spring": {"color": BLUE, "linewidth": 1.2 * PIXEL},
+    "reaction R": {"color": INK, "linewidth": 2.2 * PIXEL},
+}
 # The shares of energy from the bottom up: attribute, words, colour.
 _SHARES = (
     ("kinetic", "motion", SKY),
@@ -40,7 +42,6 @@ _SHARES = (
     ("friction", "friction", "#a9b1b8"),
     ("damping", "damping", PURPLE),
 )
-_SAMPLES = 250  # of the energy's outlines
 
 
 class Regime(NamedTuple):
@@ -73,10 +74,7 @@ def regimes(history: CollisionHistory) -> list[Regime]:
 def forces_panel(figure: Figure) -> Axes:
     """Return the axes of `draw_forces`."""
     axes = panel(figure, "Forces", _TIME, "Force [MN]")
-    handles = {
-        name: Line2D([], [], color=colour, linewidth=_THIN) for name, colour in _SPRINGS.items()
-    }
-    key(axes, {**handles, "reaction R": Line2D([], [], color=INK, linewidth=_THICK)})
+    key(axes, _FORCES)
     return axes
 
 
@@ -92,28 +90,16 @@ def draw_forces(axes: Axes, history: CollisionHistory) -> None:
         colour = BODIES.get(name, MUTED)
         axes.axvspan(1e3 * start, 1e3 * end, color=colour, alpha=0.13, linewidth=0.0)
         if 1e3 * (end - start) > 0.016 * len(name) * axes.get_xlim()[1]:
-            axes.annotate(
-                name,
-                (500.0 * (start + end), 0.0),
-                xycoords=("data", "axes fraction"),
-                xytext=(0.0, 4.0 * PIXEL),
-                textcoords="offset points",
-                horizontalalignment="center",
-                color=colour,
-                fontsize=10.0 * PIXEL,
-            )
-    for force, colour in zip(forces, _SPRINGS.values(), strict=False):
-        axes.plot(time, force, color=colour, linewidth=_THIN)
-    axes.plot(time, forces[-1], color=INK, linewidth=_THICK)
+            middle, small = 500.0 * (start + end), {"color": colour, "fontsize": 10.0 * PIXEL}
+            above = {"xycoords": ("data", "axes fraction"), "ha": "center"}
+            note(axes, name, (middle, 0.0), (0.0, 4.0 * PIXEL), **above, **small)
+    for force, line in zip(forces, _FORCES.values(), strict=True):
+        axes.plot(time, force, **line)
     mark_peaks(axes, history, "SI", 1e6, BODIES)
 
 
 def mark_peaks(
-    axes: Axes,
-    history: CollisionHistory,
-    system: str,
-    unit: float,
-    colours: Mapping[str, str],
+    axes: Axes, history: CollisionHistory, system: str, unit: float, colours: Mapping[str, str]
 ) -> None:
     """Mark the peaks of engine and cargo on the reaction against time, with their values.
 
@@ -137,14 +123,10 @@ def mark_peaks(
         x, y = peak.time / unit_size("time", system), peak.reaction / unit
         late = x > 0.6 * axes.get_xlim()[1]  # no room on the right
         axes.plot([x], [y], "o", color=colours[name], markersize=5.0, zorder=5)
-        axes.annotate(
-            f"{name.capitalize()} peak {printed(peak.reaction, 'force', system)}",
-            (x, y),
-            xytext=(-6, 5) if late else (6, 5),
-            textcoords="offset points",
-            horizontalalignment="right" if late else "left",
-            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5},
-        )
+        words = f"{name.capitalize()} peak {printed(peak.reaction, 'force', system)}"
+        pale = {"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5}
+        offset, side = ((-6, 5), "right") if late else ((6, 5), "left")
+        note(axes, words, (x, y), offset, ha=side, bbox=pale)
 
 
 def energy_panel(figure: Figure) -> Axes:
@@ -153,7 +135,7 @@ def energy_panel(figure: Figure) -> Axes:
     axes.set_ylim(0.0, 100.0)
     key(
         axes,
-        {words: Patch(color=colour) for _, words, colour in _SHARES},
+        {words: colour for _, words, colour in _SHARES},
         handlelength=0.8,
         handleheight=0.8,
         handletextpad=0.4,
@@ -167,22 +149,18 @@ def draw_energy(axes: Axes, history: CollisionHistory) -> None:
     """Draw where the truck's energy is, as shares that add up to all of it."""
     axes.set_xlim(_span(history))
     energy, whole = history.energy, history.collision.energy
-    few = np.linspace(0.0, history.time[-1], _SAMPLES)
-    shares = (np.interp(few, history.time, getattr(energy, name)) for name, _, _ in _SHARES)
-    axes.stackplot(
-        1e3 * few,
-        *(100.0 / whole * share for share in shares),
-        colors=[colour for _, _, colour in _SHARES],
-        linewidth=0.0,
-    )
+    few = np.linspace(0.0, history.time[-1], 250)  # samples are enough for its outlines
+    names, _, colours = zip(*_SHARES, strict=True)
+    shares = [100.0 / whole * np.interp(few, history.time, getattr(energy, n)) for n in names]
+    axes.stackplot(1e3 * few, *shares, colors=colours, linewidth=0.0)
 
 
 def draw_instant(axes: Axes, time: float, reaction: float | None = None) -> None:
     """Mark an instant [s], and where it is on the reaction [N] if that is drawn."""
     axes.axvline(1e3 * time, color=INK, linewidth=PIXEL, dashes=(3, 2))
     if reaction is not None:
-        axes.plot([1e3 * time], [1e-6 * reaction], "o", color=INK, markersize=7.0 * PIXEL,
-                  zorder=6)  # fmt: skip
+        place, size = ([1e3 * time], [1e-6 * reaction]), 7.0 * PIXEL
+        axes.plot(*place, "o", color=INK, markersize=size, zorder=6)
 
 
 def _span(history: CollisionHistory) -> tuple[float, float]:

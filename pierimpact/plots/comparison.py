@@ -6,7 +6,7 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pierimpact.plots.style import name_rows, panel, round_up
+from pierimpact.plots.style import name_rows, note, panel, round_up
 from pierimpact.units import printed
 
 
@@ -34,10 +34,5 @@ def draw_bars(axes: Axes, bars: Sequence[Bar]) -> None:
     axes.barh(range(len(bars)), values, height=0.66, color=[bar.colour for bar in bars])
     for row, (bar, value) in enumerate(zip(bars, values, strict=True)):
         words = "none" if bar.value is None else str(printed(bar.value, "force", "SI"))
-        axes.annotate(
-            f"{words}: {bar.remark}" if bar.remark else words,
-            (value, row),
-            xytext=(4.0, 0.0),
-            textcoords="offset points",
-            verticalalignment="center",
-        )
+        shown = f"{words}: {bar.remark}" if bar.remark else words
+        note(axes, shown, (value, row), (4.0, 0.0), va="center")

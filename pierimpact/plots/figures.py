@@ -9,10 +9,13 @@ from pierimpact.collision.history import CollisionHistory
 from pierimpact.design.sensitivity import Sensitivity, Variation
 from pierimpact.pier.member_forces import MemberForces
 from pierimpact.plots.collision import mark_peaks
-from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, sheet_figure, to_svg
+from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, note, sheet_figure, to_svg
 from pierimpact.units import printed, unit_of, unit_size
 
 MODEL, DESIGN = "full model", "design procedure"
+#: Lines of the full model and of a closed form beside it.
+EXACT: Any = {"color": BLUE, "linewidth": 1.4}
+CLOSED: Any = {"color": VERMILION, "linewidth": 1.0, "dashes": (5, 2)}
 
 
 def draw_history(history: CollisionHistory, system: str) -> str:
@@ -25,7 +28,7 @@ def draw_history(history: CollisionHistory, system: str) -> str:
     system : {"SI", "US"}
         Units to print in.
     """
-    with sheet_figure(6.5, 2.8, left=0.105, right=0.99, bottom=0.16, top=0.97) as figure:
+    with sheet_figure(2.8, left=0.105, right=0.99, bottom=0.16, top=0.97) as figure:
         axes = figure.add_subplot()
         time = history.time / unit_size("time", system)
         force = history.contact_force / unit_size("force", system)
@@ -33,9 +36,11 @@ def draw_history(history: CollisionHistory, system: str) -> str:
         axes.axhline(0.0, color="black", linewidth=0.5)
         axes.plot(time, force, color=GREY, linewidth=0.8)
         axes.plot(time, reaction, color=BLUE, linewidth=1.5)
-        axes.set_xlabel(f"Time after first touch [{unit_of('time', system)}]")
-        axes.set_ylabel(f"Force [{unit_of('force', system)}]")
-        axes.set_xlim(0.0, float(time[-1]))
+        axes.set(
+            xlabel=f"Time after first touch [{unit_of('time', system)}]",
+            ylabel=f"Force [{unit_of('force', system)}]",
+            xlim=(0.0, float(time[-1])),
+        )
         colours = dict.fromkeys(("engine", "cargo"), VERMILION)
         mark_peaks(axes, history, system, unit_size("force", system), colours)
         return to_svg(figure)
@@ -53,29 +58,42 @@ def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
     system : {"SI", "US"}
         Units to print in.
     """
-    curves = {
-        "Engine": (spectrum.engine, spectrum.design_engine),
-        "Cargo": (spectrum.cargo, spectrum.design_cargo),
-    }
     here = int(np.argmin(np.abs(spectrum.values - frequency)))
-    with sheet_figure(
-        6.5, 2.7, left=0.105, right=0.985, bottom=0.17, top=0.9, wspace=0.1
-    ) as figure:
+    with sheet_figure(2.7, left=0.105, right=0.985, bottom=0.17, top=0.9, wspace=0.1) as figure:
         panels = figure.subplots(1, 2, sharey=True)
-        for axes, (name, (model, design)) in zip(panels, curves.items(), strict=True):
+        models = spectrum.engine, spectrum.cargo
+        designs = spectrum.design_engine, spectrum.design_cargo
+        for axes, model, design in zip(panels, models, designs, strict=True):
             axes.axvline(frequency, color=GREY, linewidth=0.8)
             _plot_both(axes, spectrum.values, model, design, system)
             _mark_both(axes, frequency, model[here], design[here], system)
-            logarithmic(axes)
-            axes.set_xlim(float(spectrum.values[0]), float(spectrum.values[-1]))
-            axes.set_xlabel("Pier frequency [Hz]")
-            axes.set_title(name, loc="left", fontsize=9.0)
-            if np.all(np.isnan(model)):
-                axes.text(0.5, 0.5, "no contact", transform=axes.transAxes, ha="center")
-        panels[0].set_ylim(bottom=0.0)
-        panels[0].set_ylabel(f"Reaction [{unit_of('force', system)}]")
-        _name_both(panels[0])
+        name_spectra(panels, spectrum.values, models, system)
         return to_svg(figure)
+
+
+def name_spectra(panels: Any, frequency: Any, models: tuple[Any, Any], system: str) -> None:
+    """Name the panels of engine and cargo with their axes and lines, once these are drawn.
+
+    Parameters
+    ----------
+    panels : ndarray of Axes, shape (2,)
+        The panels.
+    frequency : ndarray, shape (n,)
+        Pier frequencies, the ends of the axes [Hz].
+    models : tuple of ndarray, shape (n,)
+        Reactions by the full model, all nan without contact [N].
+    system : {"SI", "US"}
+        Units to print in.
+    """
+    for axes, name, model in zip(panels, ("Engine", "Cargo"), models, strict=True):
+        logarithmic(axes)
+        ends = float(frequency[0]), float(frequency[-1])
+        axes.set(title=name, xlabel="Pier frequency [Hz]", xlim=ends)
+        if np.all(np.isnan(model)):
+            axes.text(0.5, 0.5, "no contact", transform=axes.transAxes, ha="center")
+    panels[0].set_ylim(bottom=0.0)
+    panels[0].set_ylabel(f"Reaction [{unit_of('force', system)}]")
+    panels[0].legend(reverse=True, loc="upper left")
 
 
 def draw_member_forces(forces: MemberForces, system: str) -> str:
@@ -90,24 +108,16 @@ def draw_member_forces(forces: MemberForces, system: str) -> str:
     """
     z = forces.z / unit_size("length", system)
     impact = z[1]
-    with sheet_figure(
-        6.5, 2.7, left=0.105, right=0.985, bottom=0.09, top=0.91, wspace=0.12
-    ) as figure:
+    with sheet_figure(2.7, left=0.105, right=0.985, bottom=0.09, top=0.91, wspace=0.12) as figure:
         column, *diagrams = figure.subplots(1, 3, sharey=True, width_ratios=[0.7, 1.0, 1.0])
         column.plot([0.0, 0.0], [z[0], z[-1]], color="black", linewidth=3.0)
-        column.annotate(
-            "",
-            (-0.03, impact),
-            xytext=(-0.8, impact),
-            arrowprops={"arrowstyle": "-|>", "color": VERMILION, "linewidth": 1.4},
-        )
+        arrow = {"arrowstyle": "-|>", "color": VERMILION, "linewidth": 1.4}
+        column.annotate("", (-0.03, impact), xytext=(-0.8, impact), arrowprops=arrow)
         force = printed(forces.reaction, "force", system)
         column.text(-0.85, impact, f"{force}\n", va="center", fontsize=8.5)
-        column.set_xlim(-1.0, 0.5)
-        column.set_xticks([])
         column.spines["bottom"].set_visible(False)
-        column.set_ylabel(f"Height above the base [{unit_of('length', system)}]")
-        column.set_ylim(0.0, z[-1])
+        height = f"Height above the base [{unit_of('length', system)}]"
+        column.set(ylabel=height, xlim=(-1.0, 0.5), ylim=(0.0, z[-1]), xticks=[])
         for axes, values, quantity, name in (
             (diagrams[0], forces.shear, "force", "Shear"),
             (diagrams[1], forces.moment, "moment", "Moment"),
@@ -117,18 +127,13 @@ def draw_member_forces(forces: MemberForces, system: str) -> str:
             axes.fill_betweenx(z, 0.0, shown, color=BLUE, alpha=0.15, linewidth=0.0)
             axes.plot(shown, z, color=BLUE, linewidth=1.3)
             axes.margins(x=0.32)
-            axes.set_title(f"{name} [{unit_of(quantity, system)}]", loc="left", fontsize=9.0)
+            axes.set_title(f"{name} [{unit_of(quantity, system)}]")
             axes.locator_params(axis="x", nbins=4)
             for height, value, x in _labelled_corners(z, values, shown, name):
-                axes.annotate(
-                    printed(value, quantity, system).number,
-                    (x, height),
-                    xytext=(4 if x >= 0.0 else -4, 0),
-                    textcoords="offset points",
-                    ha="left" if x >= 0.0 else "right",
-                    va="center" if 0.0 < height < z[-1] else "bottom" if height == 0.0 else "top",
-                    fontsize=8.5,
-                )
+                words = printed(value, quantity, system).number
+                offset, side = ((4, 0), "left") if x >= 0.0 else ((-4, 0), "right")
+                end = "center" if 0.0 < height < z[-1] else "bottom" if height == 0.0 else "top"
+                note(axes, words, (x, height), offset, ha=side, va=end, fontsize=8.5)
         return to_svg(figure)
 
 
@@ -166,9 +171,8 @@ def draw_sensitivity(
         ("impact_height", "length", "Impact height"),
         ("frequency", "frequency", "Pier frequency"),
     )
-    with sheet_figure(
-        6.5, 3.9, left=0.105, right=0.985, bottom=0.115, top=0.985, hspace=0.38, wspace=0.1
-    ) as figure:
+    margins = {"left": 0.105, "right": 0.985, "bottom": 0.115, "top": 0.985}
+    with sheet_figure(3.9, **margins, hspace=0.38, wspace=0.1) as figure:
         grid = figure.subplots(2, 2, sharey=True)
         for axes, (name, quantity, words) in zip(grid.flat, panels, strict=True):
             variation = getattr(variations, name)
@@ -185,22 +189,17 @@ def draw_sensitivity(
         grid[0, 0].set_ylim(bottom=0.0)
         for axes in grid[:, 0]:
             axes.set_ylabel(f"Reaction [{unit_of('force', system)}]")
-        _name_both(grid[0, 0])
+        grid[0, 0].legend(reverse=True, loc="upper left")
         return to_svg(figure)
 
 
 def _plot_both(axes: Any, x: Any, model: Any, design: Any, system: str) -> None:
     size = unit_size("force", system)
-    axes.plot(x, design / size, color=VERMILION, linewidth=1.0, dashes=(5, 2), label=DESIGN)
-    axes.plot(x, model / size, color=BLUE, linewidth=1.4, label=MODEL)
+    axes.plot(x, design / size, label=DESIGN, **CLOSED)
+    axes.plot(x, model / size, label=MODEL, **EXACT)
 
 
 def _mark_both(axes: Any, x: float, model: float, design: float, system: str) -> None:
     size = unit_size("force", system)
     axes.plot([x], [design / size], "s", color=VERMILION, markersize=5.0, fillstyle="none")
     axes.plot([x], [model / size], "o", color=BLUE, markersize=4.0, zorder=5)
-
-
-def _name_both(axes: Any) -> None:
-    handles, names = axes.get_legend_handles_labels()
-    axes.legend(handles[::-1], names[::-1], frameon=False, loc="upper left", fontsize=8.5)

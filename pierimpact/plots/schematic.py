@@ -1,7 +1,6 @@
 """The collision as a picture: engine, body, crushing springs and deflecting pier."""
 
-from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -31,8 +30,7 @@ _CONCRETE, _ASPHALT, _GLASS, _SHEET_METAL, _CARGO = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Scene:
+class Scene(NamedTuple):
     """What stays in the picture of one collision.
 
     Parameters
@@ -107,27 +105,20 @@ def picture(figure: Figure) -> Axes:
 def draw_scene(axes: Axes, scene: Scene) -> None:
     """Draw what does not move: the road, what holds the pier, and the scale of its movement."""
     axes.plot([_LEFT, _RIGHT], [0.0, 0.0], color=_ASPHALT, linewidth=3.0 * PIXEL)
-    axes.text(
-        _RIGHT - 0.15,
-        _BOTTOM + 0.12,
-        f"pier’s movement drawn {scene.exaggeration:g} times too large",
-        horizontalalignment="right",
-        color=MUTED,
-    )
+    words = f"pier’s movement drawn {scene.exaggeration:g} times too large"
+    axes.text(_RIGHT - 0.15, _BOTTOM + 0.12, words, ha="right", color=MUTED)
     if scene.column is None:
         axes.add_artist(Rectangle((_WALL, 0.0), 0.22, 3.3, color=MUTED))
         return
-    column, middle = scene.column.column, 0.5 * scene.depth
-    _draw_support(axes, column.base, scene.depth, 0.0, -1.0)
+    column, depth = scene.column.column, scene.depth
+    _draw_support(axes, column.base, depth, 0.0, -1.0)
     if column.height <= _TALLEST:
-        _draw_support(axes, column.top, scene.depth, column.height, 1.0)
+        _draw_support(axes, column.top, depth, column.height, 1.0)
     else:
-        axes.text(
-            scene.depth + SWING + 0.2, _TALLEST - 0.3, f"↑ up to {column.height:.3g} m", color=MUTED
-        )
-    axes.plot(
-        [middle, middle], [0.0, min(column.height, _TALLEST)], ":", color=MUTED, linewidth=PIXEL
-    )
+        words = f"↑ up to {column.height:.3g} m"
+        axes.text(depth + SWING + 0.2, _TALLEST - 0.3, words, color=MUTED)
+    top = min(column.height, _TALLEST)
+    axes.plot([0.5 * depth, 0.5 * depth], [0.0, top], ":", color=MUTED, linewidth=PIXEL)
 
 
 def draw_frame(axes: Axes, scene: Scene, frame: Frame) -> None:
@@ -145,9 +136,8 @@ def _draw_column(axes: Axes, column: StruckColumn, depth: float, shift: float) -
     z = np.linspace(0.0, min(column.column.height, _TALLEST), 25)
     x = shift * column.shape(z)
     outline = np.array([np.append(x, x[::-1] + depth), np.append(z, z[::-1])]).T
-    axes.add_artist(
-        Polygon(outline, facecolor=_CONCRETE, edgecolor=MUTED, linewidth=PIXEL, zorder=0.9)
-    )
+    edge: Any = {"edgecolor": MUTED, "linewidth": PIXEL, "zorder": 0.9}
+    axes.add_artist(Polygon(outline, facecolor=_CONCRETE, **edge))
 
 
 def _draw_oscillator(axes: Axes, shift: float) -> None:
@@ -187,17 +177,11 @@ def _draw_truck(axes: Axes, truck: Truck, frame: Frame, face: float) -> None:
     _draw_wheel(axes, engine_front - _ENGINE_LENGTH + 0.1)
     _box(axes, engine_front - _ENGINE_LENGTH, 0.54, _ENGINE_LENGTH, 0.66, VERMILION, VERMILION)
     _name(axes, engine_front - 0.5 * _ENGINE_LENGTH, 0.78, "m₁", "white", 13.0)
-    axes.text(
-        min(engine_front, -0.7),
-        -0.5,
-        f"m₁ {_mass(truck.engine_mass)}, {_speed(frame.engine_velocity)}",
-        horizontalalignment="right",
-        color=VERMILION,
-        fontsize=12.5 * PIXEL,
-    )
-    _draw_spring(
-        axes, engine_front, engine_tip, _ENGINE_HEIGHT, VERMILION, _stroke(frame.engine_force)
-    )
+    words = f"m₁ {_mass(truck.engine_mass)}, {_speed(frame.engine_velocity)}"
+    place = min(engine_front, -0.7), -0.5
+    axes.text(*place, words, ha="right", color=VERMILION, fontsize=12.5 * PIXEL)
+    stroke = _stroke(frame.engine_force)
+    _draw_spring(axes, engine_front, engine_tip, _ENGINE_HEIGHT, VERMILION, stroke)
 
 
 def _draw_cab(axes: Axes, rear: float, nose: float, whole: float) -> None:
@@ -211,28 +195,20 @@ def _draw_cab(axes: Axes, rear: float, nose: float, whole: float) -> None:
                (0.93, 0.55), (0.0, 0.75)]  # fmt: skip
     window = [(0.05, 2.6), (0.19, 2.6), (0.36, 1.78), (0.05, 1.78)]
     for points, colour in ((outline, _SHEET_METAL), (window, _GLASS)):
-        x, z = np.array(points).T
-        axes.add_artist(
-            Polygon(
-                np.array([rear + length * x, z]).T,
-                facecolor=colour,
-                edgecolor=MUTED,
-                linewidth=1.4 * PIXEL,
-                joinstyle="round",
-            )
-        )
+        corners = np.array(points) * (length, 1.0) + (rear, 0.0)
+        line: Any = {"edgecolor": MUTED, "linewidth": 1.4 * PIXEL, "joinstyle": "round"}
+        axes.add_artist(Polygon(corners, facecolor=colour, **line))
 
 
 def _draw_spring(
     axes: Axes, start: float, end: float, z: float, colour: str, stroke: float
 ) -> None:
     """Draw a spring as a zigzag, with a plate at its end."""
-    turns, half = 7, 0.17
-    quarter = (end - start) / (4 * turns)
-    places = np.arange(4 * turns + 1)
-    heights = half * np.array([0.0, 1.0, 0.0, -1.0])[places % 4]
-    axes.plot(start + quarter * places, z + heights, color=colour, linewidth=stroke * PIXEL)
-    axes.plot([end, end], [z - 0.22, z + 0.22], color=colour, linewidth=stroke * PIXEL)
+    places = np.arange(4 * 7 + 1)  # quarters of its turns
+    heights = 0.17 * np.array([0.0, 1.0, 0.0, -1.0])[places % 4]
+    line: Any = {"color": colour, "linewidth": stroke * PIXEL}
+    axes.plot(start + (end - start) / 28 * places, z + heights, **line)
+    axes.plot([end, end], [z - 0.22, z + 0.22], **line)
 
 
 def _draw_reaction(axes: Axes, scene: Scene, reaction: float, shift: float) -> None:
@@ -244,19 +220,16 @@ def _draw_reaction(axes: Axes, scene: Scene, reaction: float, shift: float) -> N
     length = _ARROW * abs(reaction) / scene.largest
     if scene.column is None or length < 0.1:
         return
-    ends = [(tip + length, z), (tip, z)] if reaction > 0.0 else [(tip, z), (tip + length, z)]
-    axes.annotate(
-        "",
-        ends[1],
-        xytext=ends[0],
-        arrowprops={
-            "arrowstyle": "-|>,head_width=0.25,head_length=0.5",
-            "color": INK,
-            "linewidth": 3.0 * PIXEL,
-            "shrinkA": 0.0,
-            "shrinkB": 0.0,
-        },
-    )
+    # Towards the truck, and away from it while the pier swings back.
+    end, start = sorted(((tip, z), (tip + length, z)), reverse=reaction <= 0.0)
+    arrow = {
+        "arrowstyle": "-|>,head_width=0.25,head_length=0.5",
+        "color": INK,
+        "linewidth": 3.0 * PIXEL,
+        "shrinkA": 0.0,
+        "shrinkB": 0.0,
+    }
+    axes.annotate("", end, xytext=start, arrowprops=arrow)
 
 
 def _draw_wheel(axes: Axes, x: float) -> None:
@@ -270,47 +243,22 @@ def _draw_support(axes: Axes, kind: str, depth: float, z: float, outwards: float
         return
     hinge = 0.15 if kind == "pinned" else 0.0
     if hinge:
-        axes.add_artist(
-            Circle(
-                (0.5 * depth, z + outwards * 0.5 * hinge),
-                0.09,
-                facecolor="white",
-                edgecolor=INK,
-                linewidth=1.6 * PIXEL,
-                zorder=2.0,
-            )
-        )
-    axes.add_artist(
-        Rectangle((-0.6, z + outwards * hinge), depth + 1.2, outwards * 0.36, color="#b4bac0")
-    )
+        pin: Any = {"facecolor": "white", "edgecolor": INK, "linewidth": 1.6 * PIXEL, "zorder": 2.0}
+        axes.add_artist(Circle((0.5 * depth, z + outwards * 0.5 * hinge), 0.09, **pin))
+    corner = -0.6, z + outwards * hinge
+    axes.add_artist(Rectangle(corner, depth + 1.2, outwards * 0.36, color="#b4bac0"))
 
 
 def _box(axes: Axes, x: float, z: float, width: float, height: float, face: str, edge: str) -> None:
-    axes.add_artist(
-        FancyBboxPatch(
-            (x, z),
-            width,
-            height,
-            boxstyle="round,pad=0,rounding_size=0.1",
-            facecolor=face,
-            edgecolor=edge,
-            linewidth=1.8 * PIXEL,
-        )
-    )
+    style = "round,pad=0,rounding_size=0.1"
+    colours: Any = {"facecolor": face, "edgecolor": edge, "linewidth": 1.8 * PIXEL}
+    axes.add_artist(FancyBboxPatch((x, z), width, height, boxstyle=style, **colours))
 
 
 def _name(
     axes: Axes, x: float, z: float, words: str, colour: str, size: float, weight: str = "bold"
 ) -> None:
-    axes.text(
-        x,
-        z,
-        words,
-        horizontalalignment="center",
-        color=colour,
-        fontsize=size * PIXEL,
-        fontweight=weight,
-    )
+    axes.text(x, z, words, ha="center", color=colour, fontsize=size * PIXEL, weight=weight)
 
 
 def _gap(length: float, crush: float) -> float:

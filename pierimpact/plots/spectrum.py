@@ -3,20 +3,9 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from pierimpact.plots.style import (
-    BODIES,
-    FORMULA,
-    MUTED,
-    key,
-    logarithmic,
-    mark_here,
-    panel,
-    round_out,
-    round_up,
-)
+from pierimpact.plots import style
 from pierimpact.units import printed
 
 Array = NDArray[np.float64]
@@ -24,20 +13,11 @@ Array = NDArray[np.float64]
 
 def spectrum_panel(figure: Figure, body: str) -> Axes:
     """Return the axes of `draw_spectrum`, for "engine" or "cargo"."""
-    axes = panel(
-        figure,
-        f"{body.capitalize()} peak",
-        "Pier frequency $f_\\mathrm{p}$ [Hz]",
-        "Peak reaction [MN]",
-    )
-    logarithmic(axes)
-    key(
-        axes,
-        {
-            "full model": Line2D([], [], color=BODIES[body]),
-            "two-degree formula": Line2D([], [], **FORMULA),
-        },
-    )
+    frequency = "Pier frequency $f_\\mathrm{p}$ [Hz]"
+    axes = style.panel(figure, f"{body.capitalize()} peak", frequency, "Peak reaction [MN]")
+    style.logarithmic(axes)
+    full = {"color": style.BODIES[body]}
+    style.key(axes, {"full model": full, "two-degree formula": style.FORMULA})
     return axes
 
 
@@ -57,17 +37,11 @@ def draw_spectrum(axes: Axes, frequency: Array, full: Array, reduced: Array, *, 
         Which body.
     """
     if np.isnan(full).all() and np.isnan(reduced).all():
-        axes.text(
-            0.5,
-            0.45,
-            f"The {body} does not reach the pier at this speed.",
-            transform=axes.transAxes,
-            horizontalalignment="center",
-            color=MUTED,
-        )
+        words = f"The {body} does not reach the pier at this speed."
+        axes.text(0.5, 0.45, words, transform=axes.transAxes, ha="center", color=style.MUTED)
         return
-    axes.plot(frequency, 1e-6 * full, color=BODIES[body])
-    axes.plot(frequency, 1e-6 * reduced, **FORMULA)
+    axes.plot(frequency, 1e-6 * full, color=style.BODIES[body])
+    axes.plot(frequency, 1e-6 * reduced, **style.FORMULA)
 
 
 def draw_place(
@@ -92,10 +66,8 @@ def draw_place(
         Its peak [N]; None where the body does not meet the pier.
     """
     known = [8e5, reaction or 0.0, *full[np.isfinite(full)], *reduced[np.isfinite(reduced)]]
-    axes.set_xlim(round_out(float(frequency[0]), float(frequency[-1]), here))
-    axes.set_ylim(0.0, round_up(1.2e-6 * max(known)))
-    if reaction is None:
-        mark_here(axes, here, None, BODIES[body], "")
-    else:
-        words = str(printed(reaction, "force", "SI"))
-        mark_here(axes, here, 1e-6 * reaction, BODIES[body], words)
+    axes.set_xlim(style.round_out(float(frequency[0]), float(frequency[-1]), here))
+    axes.set_ylim(0.0, style.round_up(1.2e-6 * max(known)))
+    place = None if reaction is None else 1e-6 * reaction
+    words = "" if reaction is None else str(printed(reaction, "force", "SI"))
+    style.mark_here(axes, here, place, style.BODIES[body], words)

@@ -7,9 +7,10 @@ from contextlib import contextmanager
 from typing import Any
 
 from matplotlib import rc_context
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 # Colours of Okabe and Ito, told apart by colour-blind readers too.
 BLUE, VERMILION, GREEN = "#0072b2", "#d55e00", "#009e73"
@@ -31,6 +32,10 @@ _SHEET: Any = {
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
     "axes.labelsize": 9.0,
+    "axes.titlesize": 9.0,
+    "axes.titlelocation": "left",
+    "legend.fontsize": 8.5,
+    "legend.frameon": False,
     "svg.fonttype": "path",
     "svg.hashsalt": "pierimpact",  # the same drawing gives the same bytes
 }
@@ -83,10 +88,10 @@ SCREEN: Any = {
 
 
 @contextmanager
-def sheet_figure(width: float, height: float, **margins: float) -> Iterator[Figure]:
-    """Give a figure of a size in inches, in the style of the sheet."""
+def sheet_figure(height: float, **margins: float) -> Iterator[Figure]:
+    """Give a figure as wide as the text of the sheet, in its style; height in inches."""
     with rc_context(_SHEET):
-        figure = Figure(figsize=(width, height))
+        figure = Figure(figsize=(6.5, height))
         figure.subplots_adjust(**margins)
         yield figure
 
@@ -121,15 +126,8 @@ def panel(
         Margins [px].
     """
     width, height = 72.0 / PIXEL * figure.get_size_inches()
-    axes = figure.add_axes(
-        (
-            left / width,
-            bottom / height,
-            1.0 - (left + right) / width,
-            1.0 - (top + bottom) / height,
-        )
-    )
-    axes.set(title=title, xlabel=x_label, ylabel=y_label)
+    figure.subplots_adjust(left / width, bottom / height, 1.0 - right / width, 1.0 - top / height)
+    axes = figure.add_subplot(title=title, xlabel=x_label, ylabel=y_label)
     axes.locator_params(axis="y", nbins=6)
     return axes
 
@@ -141,16 +139,21 @@ def logarithmic(axes: Axes, ticks: Sequence[float] = FREQUENCY_TICKS) -> None:
     axes.minorticks_off()
 
 
-def key(axes: Axes, handles: Mapping[str, Artist], **options: Any) -> None:
-    """Name lines and areas by a legend above the axes, at the right of the title."""
-    axes.legend(
-        list(handles.values()),
-        list(handles),
-        loc="lower right",
-        bbox_to_anchor=(1.0, 1.02),
-        ncols=len(handles),
-        **options,
-    )
+def key(axes: Axes, styles: Mapping[str, dict[str, Any] | str], **options: Any) -> None:
+    """Name lines, by their style, and areas, by their colour, above the axes at the right."""
+    handles = [
+        Patch(color=style) if isinstance(style, str) else Line2D([], [], **style)
+        for style in styles.values()
+    ]
+    place: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.02), "ncols": len(styles)}
+    axes.legend(handles, list(styles), **place, **options)
+
+
+def note(
+    axes: Axes, words: str, place: tuple[Any, Any], offset: tuple[float, float], **options: Any
+) -> None:
+    """Write words at an offset [pt] from a place on the axes."""
+    axes.annotate(words, place, xytext=offset, textcoords="offset points", **options)
 
 
 def name_rows(axes: Axes, names: Sequence[str]) -> None:
@@ -197,13 +200,13 @@ def mark_here(axes: Axes, x: float, y: float | None, colour: str, words: str) ->
         return
     axes.plot([x], [y], "o", color=colour, markerfacecolor="white", zorder=5)
     late = axes.transLimits.transform(axes.transScale.transform((x, y)))[0] > 0.6
-    axes.annotate(
+    note(
+        axes,
         words,
         (x, 1.0),
+        (-5.0 if late else 5.0, -11.0 * PIXEL),
         xycoords=("data", "axes fraction"),
-        xytext=(-5.0 if late else 5.0, -11.0 * PIXEL),
-        textcoords="offset points",
-        horizontalalignment="right" if late else "left",
-        fontweight="bold",
+        ha="right" if late else "left",
+        weight="bold",
         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
     )

@@ -11,8 +11,8 @@ from pierimpact.design.procedure import amplification
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.design.spectra import Spectrum
 from pierimpact.design.study import Reactions
-from pierimpact.plots.figures import DESIGN, MODEL
-from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, sheet_figure, to_svg
+from pierimpact.plots.figures import CLOSED, DESIGN, EXACT, MODEL, name_spectra
+from pierimpact.plots.style import BLUE, GREY, logarithmic, sheet_figure, to_svg
 from pierimpact.units import unit_of, unit_size
 
 Array = NDArray[np.float64]
@@ -29,6 +29,9 @@ _DOTS: Any = {
     "markeredgewidth": 0.0,
     "rasterized": True,
 }
+_DOTTED: Any = {"color": GREY, "linewidth": 1.0, "dashes": (1, 1.5)}
+# Margins of three panels.
+_THREE = {"left": 0.1, "right": 0.99, "top": 0.91, "wspace": 0.08}
 _RATIOS = np.geomspace(0.1, 10.0, 81)
 _LABELLED = 34  # where the curves of different mass ratios are apart
 _FORCE_TICKS = {"SI": (1000, 2000, 5000, 10000), "US": (200, 500, 1000, 2000)}
@@ -44,41 +47,26 @@ def draw_amplification(mass_ratios: Sequence[float], restitution: float, damping
     restitution, damping : float
         e and ζ of all of them [-].
     """
-    with sheet_figure(6.5, 3.0, left=0.085, right=0.985, bottom=0.15, top=0.97) as figure:
+    with sheet_figure(3.0, left=0.085, right=0.985, bottom=0.15, top=0.97) as figure:
         axes = figure.add_subplot()
+        white = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
         for mu in mass_ratios:
             exact = exact_amplification(_RATIOS, mu, restitution, damping)
-            closed = amplification(_RATIOS, mu, restitution, damping)
-            first = mu == mass_ratios[0]
-            axes.plot(
-                _RATIOS,
-                closed,
-                color=VERMILION,
-                linewidth=1.0,
-                dashes=(5, 2),
-                label="closed form" if first else None,
-            )
-            axes.plot(
-                _RATIOS,
-                exact,
-                color=BLUE,
-                linewidth=1.3,
-                label="two-degree-of-freedom system, exact" if first else None,
-            )
+            axes.plot(_RATIOS, amplification(_RATIOS, mu, restitution, damping), **CLOSED)
+            axes.plot(_RATIOS, exact, **EXACT | {"linewidth": 1.3})
+            place = _RATIOS[_LABELLED], exact[_LABELLED]
             axes.annotate(
-                f"$\\mu$ = {mu:g}",
-                (_RATIOS[_LABELLED], exact[_LABELLED]),
-                ha="center",
-                va="center",
-                fontsize=8.5,
-                bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+                f"$\\mu$ = {mu:g}", place, ha="center", va="center", fontsize=8.5, bbox=white
             )
         logarithmic(axes, (0.1, 0.2, 0.5, 1, 2, 5, 10))
-        axes.set_xlim(_RATIOS[0], _RATIOS[-1])
+        axes.set(
+            xlabel="Frequency ratio $\\beta = f_\\mathrm{p} / f_i$",
+            ylabel="Amplification $S$",
+            xlim=(_RATIOS[0], _RATIOS[-1]),
+        )
         axes.set_ylim(bottom=0.0)
-        axes.set_xlabel("Frequency ratio $\\beta = f_\\mathrm{p} / f_i$")
-        axes.set_ylabel("Amplification $S$")
-        axes.legend(frameon=False, loc="upper left", fontsize=8.5)
+        names = ("closed form", "two-degree-of-freedom system, exact")
+        axes.legend(axes.lines[:2], names, loc="upper left")
         return to_svg(figure)
 
 
@@ -93,44 +81,16 @@ def draw_routes(engine: Spectrum, cargo: Spectrum, system: str) -> str:
         Units to print in.
     """
     size = unit_size("force", system)
-    with sheet_figure(
-        6.5, 2.9, left=0.105, right=0.985, bottom=0.16, top=0.91, wspace=0.1
-    ) as figure:
+    with sheet_figure(2.9, left=0.105, right=0.985, bottom=0.16, top=0.91, wspace=0.1) as figure:
         panels = figure.subplots(1, 2, sharey=True)
-        for axes, name, spectrum in zip(panels, ("Engine", "Cargo"), (engine, cargo), strict=True):
-            axes.plot(
-                spectrum.frequency,
-                spectrum.two_degrees / size,
-                color=GREY,
-                linewidth=1.0,
-                dashes=(1, 1.5),
-                label="hand formula, exact $S$",
-            )
-            axes.plot(
-                spectrum.frequency,
-                spectrum.closed_form / size,
-                color=VERMILION,
-                linewidth=1.0,
-                dashes=(5, 2),
-                label=DESIGN,
-            )
-            axes.plot(
-                spectrum.frequency,
-                spectrum.full_model / size,
-                color=BLUE,
-                linewidth=1.4,
-                label=MODEL,
-            )
-            logarithmic(axes)
-            axes.set_xlim(spectrum.frequency[0], spectrum.frequency[-1])
-            axes.set_xlabel("Pier frequency [Hz]")
-            axes.set_title(name, loc="left", fontsize=9.0)
-            if np.all(np.isnan(spectrum.full_model)):
-                axes.text(0.5, 0.5, "no contact", transform=axes.transAxes, ha="center")
-        panels[0].set_ylim(bottom=0.0)
-        panels[0].set_ylabel(f"Reaction [{unit_of('force', system)}]")
-        handles, names = panels[0].get_legend_handles_labels()
-        panels[0].legend(handles[::-1], names[::-1], frameon=False, loc="upper left", fontsize=8.5)
+        for axes, spectrum in zip(panels, (engine, cargo), strict=True):
+            for values, words, line in (
+                (spectrum.two_degrees, "hand formula, exact $S$", _DOTTED),
+                (spectrum.closed_form, DESIGN, CLOSED),
+                (spectrum.full_model, MODEL, EXACT),
+            ):
+                axes.plot(spectrum.frequency, values / size, label=words, **line)
+        name_spectra(panels, engine.frequency, (engine.full_model, cargo.full_model), system)
         return to_svg(figure)
 
 
@@ -149,46 +109,26 @@ def draw_scatter(frequency: Array, exact: Reactions, predicted: Reactions, syste
         Units to print in.
     """
     size = unit_size("force", system)
-    ends = 0.5e6 / size, 20e6 / size
-    with sheet_figure(
-        6.5, 2.75, left=0.1, right=0.99, bottom=0.26, top=0.91, wspace=0.08
-    ) as figure:
+    ends, ticks = (0.5e6 / size, 20e6 / size), _FORCE_TICKS[system]
+    with sheet_figure(2.75, **_THREE, bottom=0.26) as figure:
         panels = figure.subplots(1, 3, sharey=True)
         for axes, name in zip(panels, Reactions._fields, strict=True):
             for share, line in ((1.0, "-"), (0.9, ":"), (1.1, ":")):
                 axes.plot(ends, [share * end for end in ends], line, color="black", linewidth=0.6)
+            there, here = getattr(exact, name) / size, getattr(predicted, name) / size
             for (low, high), colour in zip(pairwise(SCATTER_BANDS), _BAND_COLOURS, strict=True):
                 band = (frequency >= low) & (frequency < high)
-                axes.plot(
-                    getattr(exact, name)[band] / size,
-                    getattr(predicted, name)[band] / size,
-                    color=colour,
-                    label=f"{low:g}–{high:g} Hz",
-                    **_DOTS,
-                )
-            axes.set_title(name.capitalize(), loc="left", fontsize=9.0)
-            axes.set_xscale("log")
-            axes.set_yscale("log")
-            axes.set_xlim(ends)
-            axes.set_ylim(ends)
-            axes.set_aspect("equal")
-            ticks = _FORCE_TICKS[system]
+                words = f"{low:g}–{high:g} Hz"
+                axes.plot(there[band], here[band], color=colour, label=words, **_DOTS)
+            axes.set(title=name.capitalize(), xscale="log", yscale="log", aspect="equal")
+            axes.set(xlim=ends, ylim=ends)
             axes.set_xticks(ticks, map(str, ticks))
             axes.set_yticks(ticks, map(str, ticks))
             axes.minorticks_off()
         panels[1].set_xlabel(f"Reaction by the {MODEL} [{unit_of('force', system)}]")
         panels[0].set_ylabel(f"Predicted [{unit_of('force', system)}]")
-        handles, names = panels[0].get_legend_handles_labels()
-        figure.legend(
-            handles,
-            names,
-            frameon=False,
-            loc="lower center",
-            ncols=len(names),
-            fontsize=8.5,
-            markerscale=5.0,
-            handletextpad=0.1,
-        )
+        bands = axes.get_legend_handles_labels()
+        figure.legend(*bands, loc="lower center", ncols=4, markerscale=5.0, handletextpad=0.1)
         figure.set_dpi(300)
         return to_svg(figure)
 
@@ -198,16 +138,15 @@ def draw_ratios(frequency: Array, exact: Reactions, predicted: Reactions) -> str
 
     Engine, cargo and governing apart; arguments as in `draw_scatter`.
     """
-    with sheet_figure(6.5, 2.4, left=0.1, right=0.99, bottom=0.19, top=0.91, wspace=0.08) as figure:
+    with sheet_figure(2.4, **_THREE, bottom=0.19) as figure:
         panels = figure.subplots(1, 3, sharey=True)
         for axes, name in zip(panels, Reactions._fields, strict=True):
             axes.axhline(1.0, color="black", linewidth=0.6)
             ratio = getattr(predicted, name) / getattr(exact, name)
             axes.plot(frequency, ratio, color=BLUE, **_DOTS)
-            axes.set_title(name.capitalize(), loc="left", fontsize=9.0)
+            axes.set_title(name.capitalize())
             logarithmic(axes, (5, 10, 20, 50, 100))
-        panels[0].set_ylim(0.7, 1.7)
+        panels[0].set(ylim=(0.7, 1.7), ylabel=f"Predicted / {MODEL}")
         panels[1].set_xlabel("Pier frequency [Hz]")
-        panels[0].set_ylabel(f"Predicted / {MODEL}")
         figure.set_dpi(300)
         return to_svg(figure)

@@ -1,7 +1,6 @@
 """The explorer of one collision: its moving picture, forces, energy and place on the spectra."""
 
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 import ipywidgets as ipw
@@ -11,7 +10,7 @@ from pierimpact.plots import collision, schematic, spectrum
 from pierimpact.plots.style import BODIES
 from pierimpact.teaching import readouts
 from pierimpact.teaching.animation import FRAMES, Animation
-from pierimpact.teaching.explorer import HALF, Contents, Explorer, side_by_side
+from pierimpact.teaching.explorer import HALF, Explorer, Shown, side_by_side
 from pierimpact.teaching.live import LiveFigure, LiveWords
 from pierimpact.teaching.scenario import Scenario
 
@@ -21,6 +20,30 @@ _MOMENTS: dict[str, Callable[[CollisionHistory], Any]] = {
     "Engine peak": lambda history: history.engine_peak.time,
     "Cargo contact": lambda history: history.cargo_contact_time,
     "Cargo peak": lambda history: history.cargo_peak and history.cargo_peak.time,
+}
+# Name, size and layers of the figures that are always there.
+_FIGURES: dict[str, tuple[Any, ...]] = {
+    "picture": (
+        "The collision",
+        schematic.SIZE,
+        schematic.picture,
+        schematic.draw_scene,
+        schematic.draw_frame,
+    ),
+    "forces": (
+        "Forces against time",
+        HALF,
+        collision.forces_panel,
+        collision.draw_forces,
+        collision.draw_instant,
+    ),
+    "energy": (
+        "Energy against time",
+        HALF,
+        collision.energy_panel,
+        collision.draw_energy,
+        collision.draw_instant,
+    ),
 }
 
 
@@ -37,59 +60,26 @@ class CollisionExplorer(Explorer):
 
     def __init__(self, *, spectra: bool, **options: Any) -> None:
         last = FRAMES - 1
-        self.frame = ipw.IntSlider(
-            max=last, readout=False, layout=ipw.Layout(flex="1 1 200px", min_width="120px")
-        )
+        slider = ipw.Layout(flex="1 1 200px", min_width="120px")
+        self.frame = ipw.IntSlider(max=last, readout=False, layout=slider)
         self.play = ipw.Play(max=last, interval=50, show_repeat=False)
         ipw.jslink((self.play, "value"), (self.frame, "value"))
-        self._scenario: Scenario | None = None
-        charts = {
-            "forces": LiveFigure(
-                "Forces against time",
-                HALF,
-                collision.forces_panel,
-                collision.draw_forces,
-                collision.draw_instant,
-            ),
-            "energy": LiveFigure(
-                "Energy against time",
-                HALF,
-                collision.energy_panel,
-                collision.draw_energy,
-                collision.draw_instant,
-            ),
+        self._moments = {
+            words: ipw.Button(description=words, layout=ipw.Layout(width="auto"))
+            for words in _MOMENTS
         }
-        if spectra:
-            engine, cargo = (_spectrum_figure(body) for body in BODIES)
-            charts = {
-                "forces": charts["forces"],
-                "engine": engine,
-                "energy": charts["energy"],
-                "cargo": cargo,
-            }
-        self._charts = tuple(charts)
-        self._picture = LiveFigure(
-            "The collision",
-            schematic.SIZE,
-            schematic.picture,
-            schematic.draw_scene,
-            schematic.draw_frame,
-        )
-        super().__init__(
-            views={
-                "instant": LiveWords(),
-                "picture": self._picture,
-                "readout": LiveWords(),
-                **charts,
-            },
-            draw=self._contents,
-            words=readouts.outcome,
-            **options,
-        )
+        self._scenario: Scenario | None = None
+        self._charts = ("forces", "engine", "energy", "cargo") if spectra else ("forces", "energy")
+        figures: dict[str, Any] = {name: LiveFigure(*parts) for name, parts in _FIGURES.items()}
+        for body in BODIES if spectra else ():
+            layers = spectrum.spectrum_panel, spectrum.draw_spectrum, spectrum.draw_place
+            name = f"{body.capitalize()} peak against pier frequency"
+            figures[body] = LiveFigure(name, HALF, *layers, body=body)
+        super().__init__(figures={"instant": LiveWords()} | figures, draw=self._contents, **options)
         self.play.value = self.frame.value  # or a page could start from either
         self.frame.observe(lambda _: self._redraw_soon(), "value")
 
-    def _contents(self, scenario: Scenario) -> Contents:
+    def _contents(self, scenario: Scenario) -> Shown:
         if scenario != self._scenario:
             # Nothing of the old collision is replaced before all of the new one is there.
             self.animation = Animation(scenario)
@@ -102,17 +92,14 @@ class CollisionExplorer(Explorer):
         contents: dict[str, tuple[Any, ...]] = {
             "instant": (readouts.instant(frame, self.animation.phase(frame)),),
             "picture": ((self.animation.scene,), (self.animation.scene, frame)),
-            "readout": (readouts.collision_readout(scenario),),
             "forces": ((history,), (frame.time, frame.reaction)),
             "energy": ((history,), (frame.time,)),
         }
-        if "engine" in self.views:
+        for body, peak in scenario.peaks.items() if "engine" in self.views else ():
             curves = scenario.curves
-            for body, peak in scenario.peaks.items():
-                spectrum = curves.frequency, curves.full[body], curves.reduced[body]
-                reaction = None if peak is None else peak.reaction
-                contents[body] = (spectrum, (*spectrum, scenario.pier.frequency, reaction))
-        return contents
+            lines = curves.frequency, curves.full[body], curves.reduced[body]
+            contents[body] = lines, (*lines, scenario.pier.frequency, peak and peak.reaction)
+        return readouts.collision(scenario), contents
 
     @property
     def time(self) -> float:
@@ -124,18 +111,16 @@ class CollisionExplorer(Explorer):
         self.frame.value = self.animation.index(time)
 
     def _arranged(self) -> ipw.Widget:
-        self._moments = {}
         for words, when in _MOMENTS.items():
-            button = ipw.Button(description=words, layout=ipw.Layout(width="auto"))
-            button.on_click(lambda _, when=when: self.show(when(self.animation.scenario.history)))
-            self._moments[words] = button
+            self._moments[words].on_click(
+                lambda _, when=when: self.show(when(self.animation.scenario.history))
+            )
         shown = {name: view.widget for name, view in self.views.items()}
-        whole = ipw.Layout(flex="1 1 100%")
         return side_by_side(
             [
                 shown["instant"],
                 shown["picture"],
-                ipw.HBox([self.play, self.frame], layout=whole),
+                ipw.HBox([self.play, self.frame], layout=ipw.Layout(flex="1 1 100%")),
                 *self._moments.values(),
                 shown["readout"],
                 *(shown[name] for name in self._charts),
@@ -149,17 +134,8 @@ class CollisionExplorer(Explorer):
             if peak is not None:
                 self.show(peak.time)  # the engine's at last, which stays on show
                 self.redraw()
-                still = self._picture.still(f"At the {body} peak. {words}", "max(40%, 320px)")
-                pictures = still + pictures
-        others = ("readout", *self._charts)
-        return pictures + "".join(self.views[name].still(words) for name in others)
-
-
-def _spectrum_figure(body: str) -> LiveFigure:
-    return LiveFigure(
-        f"{body.capitalize()} peak against pier frequency",
-        HALF,
-        partial(spectrum.spectrum_panel, body=body),
-        partial(spectrum.draw_spectrum, body=body),
-        partial(spectrum.draw_place, body=body),
-    )
+                alt = f"At the {body} peak. {words}"
+                pictures = self.views["picture"].still(alt, "max(40%, 320px)") + pictures
+        return pictures + "".join(
+            self.views[name].still(words) for name in ("readout", *self._charts)
+        )

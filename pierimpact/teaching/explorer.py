@@ -2,8 +2,8 @@
 
 import asyncio
 import html
-from collections.abc import Callable, Mapping
-from dataclasses import fields
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import ipywidgets as ipw
@@ -13,6 +13,7 @@ from pierimpact.plots.style import MUTED
 from pierimpact.teaching.control import Control
 from pierimpact.teaching.live import LiveFigure, LiveWords
 from pierimpact.teaching.markup import refusal, show, still
+from pierimpact.teaching.readouts import Readout
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.teaching.scenario_files import case_text, truck_text
 from pierimpact.teaching.variables import VARIABLES
@@ -29,7 +30,8 @@ _HOW_TO_GET_LIVE = (
 )
 
 Views = Mapping[str, LiveFigure | LiveWords]
-Contents = Mapping[str, tuple[Any, ...]]
+#: The readout of a scenario, and the contents of the other views by name.
+Shown = tuple[Readout, Mapping[str, tuple[Any, ...]]]
 
 
 class Explorer:
@@ -41,13 +43,11 @@ class Explorer:
         Caption of the still.
     controls, hidden : list of str
         Names of the variables on show and in a drawer below, of `pierimpact.teaching.variables`.
-    views : dict of str to LiveFigure or LiveWords
-        The views by name.
+    figures : dict of str to LiveFigure or LiveWords
+        The views beside the readout, by name.
     draw : callable
-        From a scenario to the contents of the views, by name. An `InputError` that it raises is
-        shown as a sentence in place of the views.
-    words : callable
-        From a scenario to a sentence that describes the figures.
+        From a scenario to its readout and the contents of these views, by name. An `InputError`
+        that it raises is shown as a sentence in place of the views.
     defaults : Scenario, optional
         Values to begin with.
     """
@@ -57,28 +57,27 @@ class Explorer:
         *,
         title: str,
         controls: list[str],
-        hidden: list[str] | None = None,
-        views: Views,
-        draw: Callable[[Scenario], Contents],
-        words: Callable[[Scenario], str],
+        hidden: Sequence[str] = (),
+        figures: Views,
+        draw: Callable[[Scenario], Shown],
         defaults: Scenario | None = None,
     ) -> None:
         self.title = title
         self.defaults = defaults or Scenario()
-        self.views = views
+        self.views: Views = {"readout": LiveWords(), **figures}
         self.redraws = 0
         self._draw = draw
         self._waiting = False
         self._copied = ipw.HTML()
         self.controls = {
             name: Control(VARIABLES[name], getattr(self.defaults, name), self._set)
-            for name in [*controls, *(hidden or [])]
+            for name in (*controls, *hidden)
         }
         self.message = ipw.HTML()
         self._body = self._arranged()
-        self.widget = self._assemble(controls, hidden or [])
+        self.widget = self._assemble(controls, hidden)
         self.redraw()
-        self._still = self._stills(words(self.defaults))
+        self._still = self._stills(self._words)
 
     def scenario(self) -> Scenario:
         """Return the scenario of the controls.
@@ -88,8 +87,8 @@ class Explorer:
         InputError
             When the value of one is not valid.
         """
-        known = {field.name: getattr(self.defaults, field.name) for field in fields(Scenario)}
-        return Scenario(**{**known, **{n: c.value for n, c in self.controls.items()}})
+        values: dict[str, Any] = {name: control.value for name, control in self.controls.items()}
+        return replace(self.defaults, **values)
 
     def set(self, **values: float | str) -> None:
         """Set values by name, in SI units, and redraw."""
@@ -107,7 +106,9 @@ class Explorer:
         self._waiting = False
         self.redraws += 1
         try:
-            for name, content in self._draw(self.scenario()).items():
+            readout, contents = self._draw(self.scenario())
+            self._words = readout.words
+            for name, content in {"readout": (readout.html,), **contents}.items():
                 self.views[name].show(*content)
         except InputError as error:
             self._refuse(f"{error}.")
@@ -158,32 +159,18 @@ class Explorer:
             for name, content in parts
         )
 
-    def _assemble(self, controls: list[str], hidden: list[str]) -> ipw.Widget:
-        rows: list[ipw.Widget] = [self.controls[name].widget for name in controls]
+    def _assemble(self, controls: Sequence[str], hidden: Sequence[str]) -> ipw.Widget:
+        rows = [self.controls[name].widget for name in controls]
         if hidden:
-            drawer = ipw.Accordion(
-                [ipw.VBox([self.controls[name].widget for name in hidden])],
-                titles=("The truck’s crush laws",),
-            )
-            rows.append(drawer)
-        reset = ipw.Button(description="Reset", icon="undo", layout=ipw.Layout(width="92px"))
-        reset.on_click(self.reset)
-        buttons = [reset]
+            drawer = ipw.VBox([self.controls[name].widget for name in hidden])
+            rows.append(ipw.Accordion([drawer], titles=("The truck’s crush laws",)))
+        buttons = [_button("Reset", "undo", "92px", self.reset)]
         if "column_diameter" in self.controls:
-            copy = ipw.Button(
-                description="Copy as case file", icon="copy", layout=ipw.Layout(width="160px")
-            )
-            copy.on_click(self.copy)
-            buttons.append(copy)
+            buttons.append(_button("Copy as case file", "copy", "160px", self.copy))
         rows += [ipw.HBox(buttons), self._copied]
         left = ipw.VBox(rows, layout=ipw.Layout(flex="1 1 250px", max_width="300px"))
-        right = ipw.VBox(
-            [self.message, self._body], layout=ipw.Layout(flex="4 1 560px", min_width="0")
-        )
-        return ipw.Box(
-            [left, right],
-            layout=ipw.Layout(display="flex", flex_flow="row wrap", grid_gap="4px 20px"),
-        )
+        right = ipw.Layout(flex="4 1 560px", min_width="0")
+        return side_by_side([left, ipw.VBox([self.message, self._body], layout=right)], "20px")
 
     def _arranged(self) -> ipw.Widget:
         """Return the views in the order of their names, as many side by side as there is room."""
@@ -206,8 +193,13 @@ class Explorer:
         show(self.widget, self.still, self.title)
 
 
-def side_by_side(widgets: list[ipw.Widget]) -> ipw.Widget:
+def side_by_side(widgets: list[ipw.Widget], gap: str = "8px") -> ipw.Widget:
     """Return widgets in rows, as many in each as there is room for."""
-    return ipw.Box(
-        widgets, layout=ipw.Layout(display="flex", flex_flow="row wrap", grid_gap="4px 8px")
-    )
+    layout = ipw.Layout(display="flex", flex_flow="row wrap", grid_gap=f"4px {gap}")
+    return ipw.Box(widgets, layout=layout)
+
+
+def _button(words: str, icon: str, width: str, pressed: Callable[..., None]) -> ipw.Button:
+    button = ipw.Button(description=words, icon=icon, layout=ipw.Layout(width=width))
+    button.on_click(pressed)
+    return button

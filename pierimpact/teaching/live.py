@@ -38,7 +38,7 @@ class LiveWords:
         """Show words, as HTML."""
         self.widget.value = content
 
-    def still(self, _: str) -> str:
+    def still(self, *_: str) -> str:
         """Return the words as they are."""
         return f'<div style="flex:1 1 100%">{self.widget.value}</div>'
 
@@ -57,22 +57,25 @@ class LiveFigure:
         Draws the parts that never change on an empty figure, and returns its axes.
     layers : callable
         Each draws a layer on the axes from its results, and may set the limits of the axes.
+    **options
+        Passed on to `prepare` and to each of the layers.
     """
 
     def __init__(
         self,
         name: str,
         size: tuple[float, float],
-        prepare: Callable[[Figure], Axes],
+        prepare: Callable[..., Axes],
         *layers: Callable[..., None],
+        **options: str,
     ) -> None:
         self.name = name
         width, height = (pixels * PIXEL / 72.0 for pixels in size)
         with rc_context(SCREEN):
             self._figure = Figure(figsize=(width, height), dpi=_DOTS_PER_INCH)
             self._canvas: Any = FigureCanvasAgg(self._figure)
-            self._axes = prepare(self._figure)
-        self._layers = layers
+            self._axes = prepare(self._figure, **options)
+        self._layers, self._options = layers, options
         self._results: list[tuple[Any, ...] | None] = [None for _ in layers]
         self._artists: list[list[Artist]] = [[] for _ in layers]
         self._limits: tuple[float, ...] = ()
@@ -81,16 +84,9 @@ class LiveFigure:
         # Not so small that letters cannot be read, and no more in a row than belong together.
         self._basis = f"max({80.0 * size[0] / ROOM:.0f}%, {0.8 * size[0]:.0f}px)"
         self._widest = f"{1.4 * size[0]:.0f}px"
-        self.widget = ipw.Image(
-            format="png",
-            layout=ipw.Layout(
-                flex=f"1 1 {self._basis}",
-                min_width="0",
-                max_width=self._widest,
-                height="auto",
-                align_self="flex-start",
-            ),
-        )
+        room = {"flex": f"1 1 {self._basis}", "min_width": "0", "max_width": self._widest}
+        layout = ipw.Layout(**room, height="auto", align_self="flex-start")
+        self.widget = ipw.Image(format="png", layout=layout)
 
     def show(self, *results: tuple[Any, ...]) -> None:
         """Show results, one tuple of arguments a layer; the same object or number is not new."""
@@ -115,12 +111,12 @@ class LiveFigure:
             self._artists[index].pop().remove()
         before = set(self._axes.get_children())
         try:
-            self._layers[index](self._axes, *results)
+            self._layers[index](self._axes, *results, **self._options)
         finally:  # so that what was drawn before an error goes, too
             new = [artist for artist in self._axes.get_children() if artist not in before]
             for artist in new:
                 artist.set_animated(True)
-            self._artists[index] = sorted(new, key=lambda artist: artist.get_zorder())
+            self._artists[index] = sorted(new, key=Artist.get_zorder)
 
     def _paint(self, first: int) -> None:
         """Paint the layers from the first that changed; all, where the limits moved."""
@@ -144,9 +140,8 @@ class LiveFigure:
         if self._palette is None:
             self._palette = _palette(picture)
         file = io.BytesIO()
-        picture.quantize(palette=self._palette, dither=Image.Dither.NONE).save(
-            file, "png", compress_level=1
-        )
+        few = picture.quantize(palette=self._palette, dither=Image.Dither.NONE)
+        few.save(file, "png", compress_level=1)
         return file.getvalue()
 
     def still(self, words: str, basis: str = "") -> str:

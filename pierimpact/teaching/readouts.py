@@ -3,6 +3,7 @@
 import html
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,19 +13,35 @@ from pierimpact.plots.schematic import Frame
 from pierimpact.plots.style import BODIES
 from pierimpact.symbols import SYMBOLS
 from pierimpact.teaching import explorer_data, markup
-from pierimpact.teaching.markup import named_values, paragraph, table
+from pierimpact.teaching.markup import paragraph
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.units import printed
 
 
-def force(value: float) -> str:
-    """Return a force as it is printed."""
-    return str(printed(value, "force", "SI"))
+class Readout(NamedTuple):
+    """Values as HTML, and in sentences what they and the figures show."""
+
+    values: str
+    words: str
+    warnings: Sequence[str] = ()
+
+    @property
+    def html(self) -> str:
+        """The readout as HTML."""
+        warned = "".join(
+            f'<div style="color:#8a5300">{html.escape(words)}.</div>' for words in self.warnings
+        )
+        return self.values + paragraph(html.escape(self.words)) + warned
+
+
+def force(value: float | None) -> str:
+    """Return a force as it is printed, "none" where there is none."""
+    return "none" if value is None or math.isnan(value) else str(printed(value, "force", "SI"))
 
 
 def reaction(peak: Peak | None) -> str:
     """Return the reaction of a peak as it is printed, "none" without one."""
-    return "none" if peak is None else force(peak.reaction)
+    return force(None if peak is None else peak.reaction)
 
 
 def peak_at(peak: Peak) -> str:
@@ -62,107 +79,73 @@ def instant(frame: Frame, phase: str) -> str:
     )
 
 
-def collision_readout(scenario: Scenario) -> str:
-    """Return the values of the pier and of the collision, as HTML."""
+def collision(scenario: Scenario) -> Readout:
+    """Return the values of the pier and of the collision."""
     pier, history = scenario.pier, scenario.history
-    items = [
+    return _readout(
+        outcome(scenario),
         _named("fp", pier.frequency),
         _named("kp", pier.stiffness),
         _named("mp", pier.mass),
         ("Truck’s energy", printed(scenario.collision.energy, "energy", "SI"), "½ (m₁ + m₂) V²"),
         ("Engine peak", reaction(history.engine_peak), "largest reaction before cargo contact"),
         ("Cargo peak", reaction(history.cargo_peak), "largest reaction after cargo contact"),
-    ]
-    return _readout(items, outcome(scenario))
-
-
-def shape_words(scenario: Scenario) -> str:
-    """Return the share of the column’s mass and of the shear deflection, in sentences."""
-    column = scenario.column
-    struck = column.struck_at(scenario.impact_height)
-    whole = column.mass_per_length * column.height
-    shear = struck.shear_deflection / struck.impact_deflection
-    return (
-        f"The pier moves as if {struck.mass / whole:.0%} of the column’s mass were concentrated "
-        f"at the impact height. Shear accounts for {shear:.0%} of the deflection there, flexure "
-        "for the rest."
     )
 
 
-def shape_readout(scenario: Scenario) -> str:
-    """Return the values of Eqs 1–3, as HTML."""
-    column = scenario.column
-    pier = scenario.pier
+def shape(scenario: Scenario) -> Readout:
+    """Return the values of Eqs 1–3, and the shares of column mass and of shear deflection."""
+    column, pier = scenario.column, scenario.pier
+    struck = column.struck_at(scenario.impact_height)
     whole = column.mass_per_length * column.height
-    items = [
+    shear = struck.shear_deflection / struck.impact_deflection
+    return _readout(
+        f"The pier moves as if {struck.mass / whole:.0%} of the column’s mass were concentrated "
+        f"at the impact height. Shear accounts for {shear:.0%} of the deflection there, flexure "
+        "for the rest.",
         _named("kp", pier.stiffness, ", Eq. 3"),
         _named("mp", pier.mass, ", Eq. 1"),
         _named("fp", pier.frequency, ", √(k_p/m_p)/2π"),
         ("Whole column", printed(whole, "mass", "SI"), "mass per length times height"),
-    ]
-    return _readout(items, shape_words(scenario))
+    )
 
 
-def amplification_words(scenario: Scenario, values: dict[str, float]) -> str:
-    """Compare the reduction to two degrees of freedom with the full model, in sentences."""
-    words = []
-    for i, (body, peak) in enumerate(scenario.peaks.items(), 1):
-        if math.isnan(values[f"R{i}"]) or peak is None:
-            words.append(f"There is no {body} peak.")
-            continue
-        words.append(
-            f"For the {body} S = {values[f'S{i}']:.3f}, and the reaction is "
-            f"{values[f'R{i}'] / peak.reaction:.2f} times the full model’s."
-        )
-    return " ".join(words)
-
-
-def amplification_readout(scenario: Scenario, values: dict[str, float]) -> str:
-    """Return the steps from contact speed to reaction beside the full model’s, as HTML."""
+def amplification(scenario: Scenario, values: dict[str, float]) -> Readout:
+    """Return the steps from contact speed to reaction beside the full model’s."""
     heads = ("", "contact speed", "μ", "e", "β", "S", "two degrees of freedom", "full model")
-    rows = [
-        (
-            body,
-            str(printed(values[f"v{i}"], "speed", "SI")),
-            *(f"{values[f'{name}{i}']:.3f}" for name in ("mu", "e", "beta", "S")),
-            "none" if math.isnan(values[f"R{i}"]) else force(values[f"R{i}"]),
-            reaction(peak),
-        )
-        for i, (body, peak) in enumerate(scenario.peaks.items(), 1)
-    ]
+    rows, words = [], []
+    for i, (body, peak) in enumerate(scenario.peaks.items(), 1):
+        speed, reduced = printed(values[f"v{i}"], "speed", "SI"), values[f"R{i}"]
+        terms = [f"{values[f'{name}{i}']:.3f}" for name in ("mu", "e", "beta", "S")]
+        rows.append((body, str(speed), *terms, force(reduced), reaction(peak)))
+        if math.isnan(reduced) or peak is None:
+            words.append(f"There is no {body} peak.")
+        else:
+            words.append(
+                f"For the {body} S = {terms[-1]}, and the reaction is "
+                f"{reduced / peak.reaction:.2f} times the full model’s."
+            )
     numbers = range(1, len(heads))
-    shown = table(heads, rows, right=numbers, colours=tuple(BODIES.values()))
-    return shown + paragraph(amplification_words(scenario, values))
+    table = markup.table(heads, rows, right=numbers, colours=tuple(BODIES.values()))
+    return Readout(table, " ".join(words))
 
 
-def design_words(scenario: Scenario) -> str:
-    """Compare the design reaction with the full model, in sentences."""
+def design(scenario: Scenario) -> Readout:
+    """Return the design reaction beside the full model’s, with its warnings."""
     design = scenario.design("long")
     ratio = design.reaction / scenario.history.governing_peak.reaction
-    return (
+    return _readout(
         f"Design reaction {force(design.reaction)}, {ratio:.2f} times the full "
-        f"model’s. The {design.governs} governs."
-    )
-
-
-def design_readout(scenario: Scenario) -> str:
-    """Return the design reaction with its warnings, as HTML."""
-    design = scenario.design("long")
-    cargo = "none" if design.cargo is None else force(design.cargo)
-    items = [
+        f"model’s. The {design.governs} governs.",
         _named("fp", scenario.pier.frequency),
         ("Design, engine", force(design.engine), "long level"),
-        ("Design, cargo", cargo, "long level"),
+        ("Design, cargo", force(design.cargo), "long level"),
         ("Design reaction", force(design.reaction), "the larger of the two"),
-    ]
-    warned = "".join(
-        f'<div style="color:#8a5300">{html.escape(words)}.</div>' for words in design.warnings
-    )
-    return _readout(items, design_words(scenario)) + warned
+    )._replace(warnings=design.warnings)
 
 
-def influence_words(changes: dict[str, NDArray[np.float64] | None]) -> str:
-    """Name the parameter that each peak is most sensitive to, in sentences."""
+def influence(scenario: Scenario, changes: dict[str, NDArray[np.float64] | None]) -> Readout:
+    """Return the values of the collision and the parameter that each peak is most sensitive to."""
     words = []
     for body, change in changes.items():
         if change is None:
@@ -173,12 +156,7 @@ def influence_words(changes: dict[str, NDArray[np.float64] | None]) -> str:
         name = explorer_data.PARAMETERS[most].meaning
         how = "disappears" if np.isinf(largest[most]) else f"changes by {largest[most]:.0%}"
         words.append(f"The {body} peak is most sensitive to the {name}: it {how}.")
-    return " ".join(words)
-
-
-def influence_readout(scenario: Scenario, changes: dict[str, NDArray[np.float64] | None]) -> str:
-    """Return the values of the collision and what its peaks are most sensitive to, as HTML."""
-    return collision_readout(scenario) + paragraph(html.escape(influence_words(changes)))
+    return Readout(collision(scenario).html, " ".join(words))
 
 
 def _named(name: str, value: float, remark: str = "") -> tuple[str, object, str]:
@@ -188,5 +166,5 @@ def _named(name: str, value: float, remark: str = "") -> tuple[str, object, str]
     return markup.symbol(symbol.latex), shown, symbol.meaning + remark
 
 
-def _readout(items: Sequence[tuple[str, object, str]], words: str) -> str:
-    return named_values(items) + paragraph(html.escape(words))
+def _readout(words: str, *items: tuple[str, object, str]) -> Readout:
+    return Readout(markup.named_values(items), words)
