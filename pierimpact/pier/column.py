@@ -133,45 +133,6 @@ class PierColumn:
         """
         return self.struck_at(impact_height).equivalent(damping_ratio)
 
-    def deflection(
-        self, z: ArrayLike, impact_height: float, force: float = 1.0
-    ) -> NDArray[np.float64]:
-        """Deflection x(z) under a static force at the impact height.
-
-        Parameters
-        ----------
-        z : array_like, any shape
-            Heights, from 0 to H [m].
-        impact_height : float
-            Height z_n of the force [m].
-        force : float, optional
-            Force, positive in the direction of travel [N].
-
-        Returns
-        -------
-        ndarray, shape of `z`
-            Deflection, positive in the direction of travel [m].
-        """
-        struck = self.struck_at(impact_height)
-        return np.asarray(number("force", force) * struck.impact_deflection * struck.shape(z))
-
-    def shape(self, z: ArrayLike, impact_height: float) -> NDArray[np.float64]:
-        """Shape function φ(z) = x(z)/x(z_n) (Eq. 2 of the source paper).
-
-        Parameters
-        ----------
-        z : array_like, any shape
-            Heights, from 0 to H [m].
-        impact_height : float
-            Nominal impact height z_n [m].
-
-        Returns
-        -------
-        ndarray, shape of `z`
-            Deflection as a fraction of that at the impact height [-].
-        """
-        return self.struck_at(impact_height).shape(z)
-
     def member_forces(self, reaction: float, impact_height: float) -> MemberForces:
         """Support reactions, shear and moment under the static force R at the impact height.
 
@@ -189,7 +150,8 @@ class PierColumn:
 class StruckColumn:
     """A column under a unit force at the impact height z_n, and what Eqs 1–3 make of it.
 
-    The equations are in `pierimpact.pier.unit_force`.
+    The equations are in `pierimpact.pier.unit_force`, and their values in `values`, by symbol.
+    Forces and deflections are positive in the direction of travel.
 
     Parameters
     ----------
@@ -245,26 +207,6 @@ class StruckColumn:
             top_moment=top_moment,
         )
 
-    @cached_property
-    def unit_forces(self) -> MemberForces:
-        """Member forces under the unit force; moments in N m per N."""
-        return self.member_forces(1.0)
-
-    @property
-    def flexural_deflection(self) -> float:
-        """Flexural part of x(z_n), the integral of M²/EI over the column [m/N]."""
-        return self.values["xfb"] + self.values["xft"]
-
-    @property
-    def shear_deflection(self) -> float:
-        """Shear part of x(z_n), the integral of V²/κGA over the column [m/N]."""
-        return self.values["xs"]
-
-    @property
-    def impact_deflection(self) -> float:
-        """Deflection x(z_n) under the unit force, of flexure and shear [m/N]."""
-        return self.values["xn"]
-
     @property
     def stiffness(self) -> float:
         """Stiffness k_p = 1/x(z_n) (Eq. 3 of the source paper) [N/m]."""
@@ -291,10 +233,9 @@ class StruckColumn:
         above: NDArray[np.float64] = polynomial.polyval((height - z) / height, from_top)
         return np.where(z <= self.impact_height, below, above)
 
-    @property
-    def shape_integral(self) -> float:
-        """Integral of φ² over the column, of each part's polynomial exactly [m]."""
-        return self.values["phi2"]
+    def deflection(self, z: ArrayLike, force: float = 1.0) -> NDArray[np.float64]:
+        """Deflection x(z) at heights `z` [m] under a static force [N] at z_n, as `z` [m]."""
+        return np.asarray(number("force", force) * self.values["xn"] * self.shape(z))
 
     @property
     def mass(self) -> float:

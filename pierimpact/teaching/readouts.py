@@ -98,7 +98,7 @@ def shape(scenario: Scenario) -> Readout:
     column, pier = scenario.column, scenario.pier
     struck = column.struck_at(scenario.impact_height)
     whole = column.mass_per_length * column.height
-    shear = struck.shear_deflection / struck.impact_deflection
+    shear = struck.values["xs"] / struck.values["xn"]
     return _readout(
         f"The pier moves as if {struck.mass / whole:.0%} of the column’s mass were concentrated "
         f"at the impact height. Shear accounts for {shear:.0%} of the deflection there, flexure "

@@ -5,7 +5,7 @@ from functools import cached_property
 from pierimpact.design.codes import CodeForce, Sourced, code_forces
 from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.markup import Inline
-from pierimpact.report.document.numbered import Column, Table
+from pierimpact.report.document.numbered import Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.units import rounded
 
@@ -26,15 +26,15 @@ class Codes(Section):
             label="tab-codes",
             caption="Forces of codes along and across the travel, and the height at which they act "
             f"({_UNKNOWN}: not known here).",
-            columns=[
-                Column(heading="Code"),
-                Column(heading="Edition"),
-                Column(heading="Clause"),
-                Column(heading=f"Along [{force}]", align="decimal"),
-                Column(heading=f"Across [{force}]", align="decimal"),
-                Column(heading=f"Height [{length}]", align="decimal"),
-                Column(heading="Status", wide=True),
-            ],
+            columns=columns(
+                "Code",
+                "Edition",
+                "Clause",
+                decimal(f"Along [{force}]"),
+                decimal(f"Across [{force}]"),
+                decimal(f"Height [{length}]"),
+                wide("Status"),
+            ),
             rows=[
                 [
                     code.code,
@@ -66,16 +66,16 @@ class Codes(Section):
             caption="The forces along the travel on this column, each at its own height or, marked "
             "*, at that of this calculation: base shear, largest moment, and this calculation over "
             "each.",
-            columns=[
-                Column(heading="Code", wide=True),
-                Column(heading=f"Force [{force}]", align="decimal"),
-                Column(heading=f"Height [{length}]", align="decimal"),
-                Column(heading=f"Shear [{force}]", align="decimal"),
-                Column(heading=f"Moment [{moment}]", align="decimal"),
-                Column(heading="Ratio of force", align="decimal"),
-                Column(heading="of shear", align="decimal"),
-                Column(heading="of moment", align="decimal"),
-            ],
+            columns=columns(
+                wide("Code"),
+                decimal(f"Force [{force}]"),
+                decimal(f"Height [{length}]"),
+                decimal(f"Shear [{force}]"),
+                decimal(f"Moment [{moment}]"),
+                decimal("Ratio of force"),
+                decimal("of shear"),
+                decimal("of moment"),
+            ),
             rows=rows,
             strong=[0],
         )

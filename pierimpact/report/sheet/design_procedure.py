@@ -7,7 +7,7 @@ from pierimpact.design.reaction import DesignReaction
 from pierimpact.handcalc import Step
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Inline, Ref, Tex, inline
-from pierimpact.report.document.numbered import Column, Steps, Table
+from pierimpact.report.document.numbered import Steps, Table, columns, decimal, wide
 from pierimpact.report.document.step_writer import StepWriter, in_symbols
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
@@ -42,13 +42,7 @@ class DesignProcedure(Section):
             caption="Starting values of the procedure, in consistent units: forces are masses "
             f"times accelerations, and 1 {unit_of(mass, self.system)} is "
             f"{printed(size, 'share', 'SI', given=True)} {self.unit('mass')}.",
-            columns=[
-                Column(heading="Item"),
-                Column(heading="Symbol"),
-                Column(heading="Value", align="decimal"),
-                Column(heading="Unit"),
-                Column(heading="From"),
-            ],
+            columns=columns("Item", "Symbol", decimal("Value"), "Unit", "From"),
             rows=[
                 [
                     SYMBOLS[name].heading,
@@ -105,12 +99,7 @@ class DesignProcedure(Section):
             label="tab-short",
             caption="The short level: a check from the same starting values. The plain numbers in "
             "the resonance terms and in η are fitted to the full model.",
-            columns=[
-                Column(heading="Step", wide=True),
-                Column(heading="Equation"),
-                Column(heading="Value", align="decimal"),
-                Column(heading="Unit"),
-            ],
+            columns=columns(wide("Step"), "Equation", decimal("Value"), "Unit"),
             rows=rows,
             centred=True,
         )

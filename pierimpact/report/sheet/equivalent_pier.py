@@ -13,7 +13,7 @@ from pierimpact.pier.sections import circle
 from pierimpact.pier.unit_force import BY_ENDS
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Ref, Tex, in_tex, number_in_tex
-from pierimpact.report.document.numbered import Column, Equation, Steps, Table
+from pierimpact.report.document.numbered import Equation, Steps, Table, columns, decimal
 from pierimpact.report.document.step_writer import StepWriter
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
@@ -181,11 +181,11 @@ class EquivalentPierSteps(Section):
                 Ref("Eq.", "eq-phi2"),
                 ".",
             ),
-            columns=[
-                Column(heading=("Height ", Tex("z"), f" [{self.unit('length')}]"), align="decimal"),
-                Column(heading=Tex(r"\varphi"), align="decimal"),
-                Column(heading=Tex(r"\varphi^2"), align="decimal"),
-            ],
+            columns=columns(
+                decimal(("Height ", Tex("z"), f" [{self.unit('length')}]")),
+                decimal(Tex(r"\varphi")),
+                decimal(Tex(r"\varphi^2")),
+            ),
             rows=rows,
         )
 

@@ -6,7 +6,7 @@ from pierimpact.collision.history import Peak
 from pierimpact.plots.figures import draw_history
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Tex, in_tex
-from pierimpact.report.document.numbered import Column, Equation, Figure, Steps, Table
+from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
@@ -25,66 +25,32 @@ class FullModel(Section):
         where = "while its spring touches the pier" if on_pier else "against the road"
         on_the_pier = r" + F_\mathrm{f}" if on_pier else ""
         ours, paper = "derived here", "Fig. 2 of the source paper"
-        equations = (
-            (
-                "crush",
-                "Crush of the springs of engine and body",
-                r"\delta_i",
-                r"x_i - x_\mathrm{p} \quad (i = 1, 2)",
-                "",
-            ),
-            (
-                "envelope",
-                "Envelope, up to the plateau’s end and beyond",
-                r"E_i(\delta)",
-                r"\min(k_{\mathrm{u}i} \, \delta, P_i) \ \text{ where } \delta \le d_i, "
-                r"\quad P_i + k_i \, (\delta - d_i) \ \text{ beyond}",
-                ours,
-            ),
-            (
-                "force",
-                "Force of a spring, with its largest crush so far",
-                "F_i",
-                r"\max(E_i(\delta_{i,\max}) - k_{\mathrm{u}i} \, (\delta_{i,\max} - \delta_i), 0)",
-                ours,
-            ),
-            (
-                "friction",
-                f"Friction on the body, {where}",
-                r"F_\mathrm{f}",
-                rf"c_\mathrm{{s}} \operatorname{{sgn}}({relative}), "
-                r"\quad \text{sticking as long as less holds it}",
-                ours,
-            ),
+        rows = (
+            ("crush", "Crush of the springs of engine and body", r"\delta_i",
+             r"x_i - x_\mathrm{p} \quad (i = 1, 2)", ""),
+            ("envelope", "Envelope, up to the plateau’s end and beyond", r"E_i(\delta)",
+             r"\min(k_{\mathrm{u}i} \, \delta, P_i) \ \text{ where } \delta \le d_i, "
+             r"\quad P_i + k_i \, (\delta - d_i) \ \text{ beyond}", ours),
+            ("force", "Force of a spring, with its largest crush so far", "F_i",
+             r"\max(E_i(\delta_{i,\max}) - k_{\mathrm{u}i} \, (\delta_{i,\max} - \delta_i), 0)",
+             ours),
+            ("friction", f"Friction on the body, {where}", r"F_\mathrm{f}",
+             rf"c_\mathrm{{s}} \operatorname{{sgn}}({relative}), "
+             r"\quad \text{sticking as long as less holds it}", ours),
             ("engine", "Motion of the engine", r"m_1 \, \ddot x_1", "-F_1", paper),
-            (
-                "body",
-                "Motion of body and cargo",
-                r"m_2 \, \ddot x_2",
-                r"-F_2 - F_\mathrm{f}",
-                paper,
-            ),
-            (
-                "pier",
-                "Motion of the pier",
-                r"m_\mathrm{p} \, \ddot x_\mathrm{p} + c_\mathrm{p} \, \dot x_\mathrm{p}"
-                r" + k_\mathrm{p} \, x_\mathrm{p}",
-                "F_1 + F_2" + on_the_pier,
-                paper,
-            ),
-        )
+            ("body", "Motion of body and cargo", r"m_2 \, \ddot x_2",
+             r"-F_2 - F_\mathrm{f}", paper),
+            ("pier", "Motion of the pier",
+             r"m_\mathrm{p} \, \ddot x_\mathrm{p} + c_\mathrm{p} \, \dot x_\mathrm{p}"
+             r" + k_\mathrm{p} \, x_\mathrm{p}", f"F_1 + F_2{on_the_pier}", paper),
+        )  # fmt: skip
         return Steps(
             [
-                Equation(
-                    label=f"eq-model-{label}",
-                    name=name,
-                    symbol=symbol,
-                    lines=[formula],
-                    source=source,
-                )
-                for label, name, symbol, formula, source in equations
+                Equation(label=f"eq-model-{label}", name=name, symbol=symbol, lines=[formula],
+                         source=source)
+                for label, name, symbol, formula, source in rows
             ]
-        )
+        )  # fmt: skip
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the full model, by name."""
@@ -142,13 +108,13 @@ class FullModel(Section):
         return Table(
             label="tab-peaks",
             caption="Contacts and peak reactions.",
-            columns=[
-                Column(heading=""),
-                Column(heading=f"Contact after [{time}]", align="decimal"),
-                Column(heading=f"Peak reaction [{force}]", align="decimal"),
-                Column(heading=f"Peak after [{time}]", align="decimal"),
-                Column(heading=""),
-            ],
+            columns=columns(
+                "",
+                decimal(f"Contact after [{time}]"),
+                decimal(f"Peak reaction [{force}]"),
+                decimal(f"Peak after [{time}]"),
+                "",
+            ),
             rows=rows,
             strong=[1 if history.governing_peak == history.cargo_peak else 0],
         )
@@ -171,11 +137,11 @@ class FullModel(Section):
             caption="Largest contact force between truck and pier by the full model, and its "
             "largest moving averages. The value of AASHTO LRFD was taken from the 25 ms average of "
             "a test.",
-            columns=[
-                Column(heading="Average"),
-                Column(heading=f"Contact force [{self.unit('force')}]", align="decimal"),
-                Column(heading=f"From [{self.unit('time')}]", align="decimal"),
-            ],
+            columns=columns(
+                "Average",
+                decimal(f"Contact force [{self.unit('force')}]"),
+                decimal(f"From [{self.unit('time')}]"),
+            ),
             rows=[
                 [name, self.number(force, "force"), "" if force is None else self.number(t, "time")]
                 for name, force, t in found
@@ -203,14 +169,14 @@ class FullModel(Section):
             label="tab-check",
             caption="Reactions by the full model and by the two levels of the design procedure, "
             "each with its ratio to the full model.",
-            columns=[
-                Column(heading="Reaction"),
-                Column(heading=f"Full model [{force}]", align="decimal"),
-                Column(heading=f"Design procedure [{force}]", align="decimal"),
-                Column(heading="Ratio", align="decimal"),
-                Column(heading=f"Short level [{force}]", align="decimal"),
-                Column(heading="Ratio", align="decimal"),
-            ],
+            columns=columns(
+                "Reaction",
+                decimal(f"Full model [{force}]"),
+                decimal(f"Design procedure [{force}]"),
+                decimal("Ratio"),
+                decimal(f"Short level [{force}]"),
+                decimal("Ratio"),
+            ),
             rows=rows,
             strong=[2],
         )

@@ -5,7 +5,7 @@ import re
 from pierimpact.files.inputs import PHYSICAL_KEYS
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Tex
-from pierimpact.report.document.numbered import Column, Table
+from pierimpact.report.document.numbered import Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, NAMES, Symbol
 
@@ -79,14 +79,7 @@ def _table(label: str, caption: str, heading: str, rows: list[list[Inline]]) -> 
     return Table(
         label=label,
         caption=caption,
-        columns=[
-            Column(heading=heading),
-            Column(heading="Symbol"),
-            Column(heading="Value", align="decimal"),
-            Column(heading="Unit"),
-            Column(heading="Status"),
-            Column(heading="Source", wide=True),
-        ],
+        columns=columns(heading, "Symbol", decimal("Value"), "Unit", "Status", wide("Source")),
         rows=rows,
     )
 

@@ -3,7 +3,7 @@
 from pierimpact.plots.figures import draw_member_forces
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Inline, Tex
-from pierimpact.report.document.numbered import Column, Figure, Table
+from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.report.sheet.summary import verdict
 from pierimpact.symbols import SYMBOLS
@@ -32,12 +32,7 @@ class MemberForcesUnderReaction(Section):
         return Table(
             label="tab-members",
             caption="Member forces under the design reaction as a static force at the impact.",
-            columns=[
-                Column(heading="Force"),
-                Column(heading="Symbol"),
-                Column(heading="Value", align="decimal"),
-                Column(heading="Unit"),
-            ],
+            columns=columns("Force", "Symbol", decimal("Value"), "Unit"),
             rows=[
                 [name, Tex(symbol), *self.shown(value, quantity)]
                 for name, symbol, value, quantity in values
@@ -91,13 +86,13 @@ class MemberForcesUnderReaction(Section):
                 symbols["M_R"],
                 ".",
             ),
-            columns=[
-                Column(heading="Check"),
-                Column(heading="Largest force", align="decimal"),
-                Column(heading="Resistance", align="decimal"),
-                Column(heading="Unit"),
-                Column(heading="Utilisation", align="decimal"),
-                Column(heading="Verdict", wide=True),
-            ],
+            columns=columns(
+                "Check",
+                decimal("Largest force"),
+                decimal("Resistance"),
+                "Unit",
+                decimal("Utilisation"),
+                wide("Verdict"),
+            ),
             rows=rows,
         )

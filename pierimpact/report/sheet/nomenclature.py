@@ -10,7 +10,7 @@ import numpy as np
 import pierimpact
 from pierimpact.report.document.blocks import Block, Nomenclature
 from pierimpact.report.document.markup import Code, Inline, Ref, Tex, inline
-from pierimpact.report.document.numbered import Column, Table
+from pierimpact.report.document.numbered import Table, columns, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
@@ -80,7 +80,7 @@ class Closing(Section):
         return Table(
             label="tab-provenance",
             caption="What this sheet was made from.",
-            columns=[Column(heading="Item"), Column(heading="Value", wide=True)],
+            columns=columns("Item", wide("Value")),
             rows=rows,
         )
 

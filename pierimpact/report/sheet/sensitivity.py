@@ -4,7 +4,7 @@ from pierimpact.design.sensitivity import MASS_CHANGE, SPEED_CHANGE
 from pierimpact.plots.figures import draw_sensitivity, draw_spectra
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline
-from pierimpact.report.document.numbered import Column, Figure, Table
+from pierimpact.report.document.numbered import Figure, Table, columns, decimal
 from pierimpact.report.sheet.section import Section
 from pierimpact.units import rounded
 
@@ -80,14 +80,14 @@ class Variations(Section):
             label="tab-sensitivity",
             caption="Reactions at other speeds and masses; the last column is the larger of "
             "procedure and full model, over that of this case.",
-            columns=[
-                Column(heading="Change"),
-                Column(heading="Value"),
-                Column(heading=f"Design procedure [{force}]", align="decimal"),
-                Column(heading=f"Full model [{force}]", align="decimal"),
-                Column(heading="Ratio", align="decimal"),
-                Column(heading="Over this case", align="decimal"),
-            ],
+            columns=columns(
+                "Change",
+                "Value",
+                decimal(f"Design procedure [{force}]"),
+                decimal(f"Full model [{force}]"),
+                decimal("Ratio"),
+                decimal("Over this case"),
+            ),
             rows=rows,
             strong=[0],
         )

@@ -46,7 +46,7 @@ QUESTIONS = (
         words=f"The explorer’s default column has a mass of "
         f"{printed(Scenario().column.mass_per_length, 'mass per length', 'SI')} and is "
         f"{Scenario().column_height:g} m high; the integral of φ² over its height is "
-        f"{Scenario().column.struck_at(1.2).shape_integral:.4g} m. What is m_p?",
+        f"{Scenario().column.struck_at(1.2).values['phi2']:.4g} m. What is m_p?",
         dimension="mass",
         answer=lambda: Scenario().pier.mass,
         traps=(
