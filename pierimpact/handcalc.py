@@ -18,37 +18,18 @@ import io
 import textwrap
 import tokenize
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import deepcopy
 from functools import cache, cached_property
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
-Node = TypeVar("Node", bound=ast.AST)
+from pierimpact.latex import CALLS, CalculationError, Printer, unprintable
 
-_CALLS = {
-    "abs": r"\left|%s\right|",
-    "arctan": r"\arctan(%s)",
-    "arctan2": r"\operatorname{atan2}(%s)",
-    "cos": r"\cos(%s)",
-    "exp": r"\mathrm{e}^{%s}",
-    "floor": r"\left\lfloor %s \right\rfloor",
-    "hypot": r"\sqrt{%s^2 + %s^2}",
-    "maximum": r"\max(%s)",
-    "minimum": r"\min(%s)",
-    "mod": r"%s \bmod %s",
-    "sin": r"\sin(%s)",
-    "sqrt": r"\sqrt{%s}",
-}  # fmt: skip
-_NESTED = ("maximum", "minimum")
 _COMPARISONS: dict[type[ast.cmpop], tuple[str, str]] = {  # that holds, and that does not
     ast.Gt: (">", r"\le"),
     ast.GtE: (r"\ge", "<"),
     ast.Lt: ("<", r"\ge"),
     ast.LtE: (r"\le", ">"),
 }
-_ALONE, _SUM, _PRODUCT, _POWER = range(4)  # how tightly the surroundings bind
-
-
-class CalculationError(TypeError):
-    """A calculation has something in it that does not print."""
 
 
 class Condition(NamedTuple):
@@ -62,11 +43,11 @@ class Condition(NamedTuple):
         match self.expression:
             case ast.Compare(left=left, ops=[comparison], comparators=[right]):
                 sign = _COMPARISONS[type(comparison)][0 if self.holds else 1]
-                printer = _Printer(symbols, r"\,")
+                printer = Printer(symbols, r"\,")
                 return f"{printer.text(left)} {sign} {printer.text(right)}"
             case ast.Name(id=name):
                 return symbols[name] if self.holds else rf"\text{{no }}{symbols[name]}"
-        raise _unprintable("the condition", self.expression)
+        raise unprintable("the condition", self.expression)
 
 
 class Step(NamedTuple):
@@ -87,7 +68,7 @@ class Step(NamedTuple):
         times : str, optional
             What stands between factors: a space between symbols, `\times` between values.
         """
-        return _Printer(shown, times).text(self.expression)
+        return Printer(shown, times).text(self.expression)
 
     @property
     def names(self) -> set[str]:
@@ -158,7 +139,7 @@ class Calculation:
             if name not in needed:
                 continue
             case = _Case(_scope(self.function), values)
-            applies = case.visit(_copy(expression))
+            applies = case.visit(deepcopy(expression))
             step = Step(name, applies, tuple(case.conditions), remark)
             needed |= step.names | {n for c in step.conditions for n in _names(c.expression)}
             found.append(step)
@@ -193,7 +174,7 @@ def _lines(function: Callable[..., Any]) -> list[_Line]:
             ) if part in scope:
                 lines += _lines_of_part(scope[part], [ast.unparse(n) for n in names], arguments)
             case _:
-                raise _unprintable(function.__name__, statement)
+                raise unprintable(function.__name__, statement)
     return lines
 
 
@@ -205,7 +186,7 @@ def _lines_of_part(
         case ast.Return(value=ast.Tuple(elts=returned)):
             inside = [ast.unparse(node) for node in returned]
         case other:
-            raise _unprintable(part.__name__, other)
+            raise unprintable(part.__name__, other)
     lines = _lines(part)
     if sorted(line.name for line in lines) != sorted(inside) or len(inside) != len(names):
         raise CalculationError(f"{part.__name__} must return every symbol that it gives")
@@ -214,7 +195,7 @@ def _lines_of_part(
     }
     outside = dict(zip(inside, names, strict=True))
     return [
-        _Line(outside[line.name], _Put(put).visit(_copy(line.expression)), line.remark)
+        _Line(outside[line.name], _Put(put).visit(deepcopy(line.expression)), line.remark)
         for line in lines
     ]
 
@@ -231,7 +212,7 @@ class _Case(ast.NodeTransformer):
             case ast.Call(func=ast.Name(id="where"), args=[condition, yes, no]):
                 holds = self._decide(condition)
                 return self.visit(yes if holds else no)  # type: ignore[no-any-return]
-            case ast.Call(func=ast.Name(id=name)) if name in _CALLS:
+            case ast.Call(func=ast.Name(id=name)) if name in CALLS:
                 return self.generic_visit(node)  # type: ignore[return-value]
             case ast.Call(func=ast.Name(id=name), args=arguments) if inspect.isfunction(
                 self.scope.get(name)
@@ -239,13 +220,13 @@ class _Case(ast.NodeTransformer):
                 formula = self.scope[name]
                 *others, last = _source(formula)[0]
                 if not isinstance(last, ast.Return) or last.value is None or others:
-                    raise _unprintable(f"the formula {name}", (*others, last)[0])
+                    raise unprintable(f"the formula {name}", (*others, last)[0])
                 put = _bound(formula, [self.visit(argument) for argument in arguments])
                 inner = _Case(_scope(formula), self.values)
-                expression = inner.visit(_Put(put).visit(_copy(last.value)))
+                expression = inner.visit(_Put(put).visit(deepcopy(last.value)))
                 self.conditions += [c for c in inner.conditions if c not in self.conditions]
                 return expression  # type: ignore[no-any-return]
-        raise _unprintable("the call", node)
+        raise unprintable("the call", node)
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
         if node.id not in self.values and isinstance(self.scope.get(node.id), int | float):
@@ -262,7 +243,7 @@ class _Case(ast.NodeTransformer):
         return holds
 
     def _value(self, node: ast.expr) -> Any:
-        code = compile(ast.fix_missing_locations(ast.Expression(_copy(node))), "where", "eval")
+        code = compile(ast.fix_missing_locations(ast.Expression(deepcopy(node))), "where", "eval")
         return eval(code, dict(self.scope), dict(self.values))
 
 
@@ -280,111 +261,6 @@ class _Put(ast.NodeTransformer):
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
         return self.expressions.get(node.id, node)
-
-
-class _Printer:
-    """Writes expressions in LaTeX, with brackets only where they are needed."""
-
-    def __init__(self, shown: Mapping[str, str], times: str) -> None:
-        self.shown, self.times = shown, times
-
-    def text(self, node: ast.expr, outer: int = _ALONE, flat: bool = False) -> str:
-        """Return an expression; `flat` is without fractions, as in an exponent."""
-
-        def within(inner: str, own: int) -> str:
-            if own >= outer:
-                return inner
-            if flat:
-                return f"({inner})"
-            return rf"\left[{inner}\right]" if "(" in inner else rf"\left({inner}\right)"
-
-        match node:
-            case ast.Name(id="pi"):
-                return r"\pi"
-            case ast.Name(id=name):
-                return self._operand(self.shown[name], outer)
-            case ast.Constant(value=int() | float() as value):
-                return self._operand(f"{value:g}", outer)
-            case ast.UnaryOp(op=ast.USub(), operand=operand):
-                return within(f"-{self.text(operand, _PRODUCT, flat)}", _ALONE)
-            case ast.BinOp(op=ast.Mult() | ast.Div()) if positive := _without_sign(node):
-                return self.text(ast.UnaryOp(ast.USub(), positive), outer, flat)
-            case ast.BinOp(left=a, op=ast.Add() | ast.Sub() as sign, right=b):
-                plus = isinstance(sign, ast.Add)
-                right = self.text(b, _SUM if plus else _PRODUCT, flat)
-                left = self.text(a, _ALONE, flat)
-                return within(f"{left} {'+' if plus else '-'} {right}", _SUM)
-            case ast.BinOp(left=ast.Constant(), op=ast.Mult(), right=ast.Name(id="pi")):
-                return within(rf"{self.text(node.left)} \pi", _PRODUCT)
-            case ast.BinOp(left=a, op=ast.Mult(), right=b):
-                pair = self.text(a, _PRODUCT, flat), self.text(b, _PRODUCT, flat)
-                return within(f" {self.times} ".join(pair), _PRODUCT)
-            case ast.BinOp(left=a, op=ast.Div(), right=b) if flat or (
-                self._short(a) and self._short(b) and outer != _PRODUCT
-            ):
-                below = self.text(b, _POWER, flat)
-                return within(f"{self.text(a, _PRODUCT, flat)} / {below}", _PRODUCT)
-            case ast.BinOp(
-                left=ast.Constant(value=1), op=ast.Div(), right=ast.Call(args=[a]) as call
-            ) if ast.unparse(call.func) == "sqrt" and r"\frac" in self.text(a):
-                return f"{self.text(a, _POWER)}^{{-1/2}}"
-            case ast.BinOp(left=a, op=ast.Div(), right=b):
-                return rf"\frac{{{self.text(a)}}}{{{self.text(b)}}}"
-            case ast.BinOp(left=a, op=ast.Pow(), right=b):
-                power = self.text(b, _ALONE, flat=True)
-                return f"{self.text(a, _POWER, flat)}^{{{power}}}"
-            case ast.Call(func=ast.Name(id=name), args=arguments) if name in _CALLS:
-                arguments = _flattened(name, arguments)
-                holes = _CALLS[name].count("%s")
-                tight = _POWER if holes > 1 else _ALONE
-                inner = tuple(self.text(a, tight, flat or name == "exp") for a in arguments)
-                found = _CALLS[name] % (inner if holes > 1 else ", ".join(inner))
-                return within(found, _PRODUCT if name == "mod" else _POWER)
-        raise _unprintable("the expression", node)
-
-    def _operand(self, text: str, outer: int) -> str:
-        """Return a symbol or a value; a sign, a unit or a power of ten may want brackets."""
-        own = _ALONE if text.startswith("-") else _PRODUCT if _compound(text) else _POWER
-        return f"({text})" if own < outer else text
-
-    def _short(self, node: ast.expr) -> bool:
-        """Return whether what prints for a tree is so short that it needs no fraction."""
-        match node:
-            case ast.BinOp(left=left, op=ast.Pow()):
-                return self._short(left)
-            case ast.BinOp(left=left, op=ast.Mult(), right=right):
-                return self._short(left) and self._short(right)
-            case ast.Name(id=name):
-                return not _compound(self.shown.get(name, ""))
-        return isinstance(node, ast.Constant)
-
-
-def _without_sign(node: ast.expr) -> ast.expr | None:
-    """Return a product without the minus that it begins with; None where there is none."""
-    match node:
-        case ast.UnaryOp(op=ast.USub(), operand=operand):
-            return operand
-        case ast.BinOp(left=left, op=ast.Mult() | ast.Div() as op, right=right):
-            positive = _without_sign(left)
-            return ast.BinOp(positive, op, right) if positive else None
-    return None
-
-
-def _compound(text: str) -> bool:
-    """Return whether a value has a unit or a power of ten."""
-    return r"\text" in text or r"\times" in text
-
-
-def _flattened(name: str, arguments: Sequence[ast.expr]) -> list[ast.expr]:
-    """Return the arguments of a maximum or minimum, with those of the same within them."""
-    flat: list[ast.expr] = []
-    for argument in arguments:
-        match argument:
-            case ast.Call(func=ast.Name(id=inner), args=own) if inner == name and name in _NESTED:
-                flat += _flattened(name, own)
-            case _:
-                flat.append(argument)
-    return flat
 
 
 def _bound(function: Callable[..., Any], arguments: Sequence[ast.expr]) -> dict[str, ast.expr]:
@@ -422,24 +298,8 @@ def _scope(function: Callable[..., Any]) -> dict[str, Any]:
     return function.__globals__ | {p.name: p.default for p in parameters if callable(p.default)}
 
 
-def _copy(node: Node) -> Node:
-    """Return a copy of a tree that can be changed."""
-    fields = {name: _copied(value) for name, value in ast.iter_fields(node)}
-    return ast.copy_location(type(node)(**fields), node)
-
-
-def _copied(value: Any) -> Any:
-    if isinstance(value, list):
-        return [_copied(item) for item in value]
-    return _copy(value) if isinstance(value, ast.AST) else value
-
-
 def _names(node: ast.AST) -> set[str]:
     """Return the names of values in a tree: neither functions nor π."""
     called = {part.func.id for part in ast.walk(node) if isinstance(part, ast.Call)}  # type: ignore[attr-defined]
     names = {part.id for part in ast.walk(node) if isinstance(part, ast.Name)}
     return names - called - {"pi"}
-
-
-def _unprintable(where: str, node: ast.AST) -> CalculationError:
-    return CalculationError(f"{where} has what a calculation cannot print: {ast.unparse(node)}")

@@ -10,7 +10,8 @@ import pytest
 from numpy import arctan2, exp, floor, hypot, maximum, minimum, mod, nan, sqrt, where
 
 from pierimpact.design.procedure import LEVELS
-from pierimpact.handcalc import Calculation, CalculationError, Step
+from pierimpact.handcalc import Calculation, Step
+from pierimpact.latex import CalculationError
 from pierimpact.pier.column import rigidities
 from pierimpact.pier.equivalent import equivalent_mass, vibration
 from pierimpact.pier.sections import circle, rectangle
