@@ -117,7 +117,7 @@ mr | m_\mathrm{r} | mass | reduced mass of engine and pier
 omega_r | \omega_\mathrm{r} | circular frequency | circular frequency of the impact
 tbar | \bar t | time | centroid of the impact after contact
 sigma_J | \sigma_\mathrm{J} | time | spread of the impact about its centroid
-J | J | impulse | impulse of the impact, as far as the pier feels it
+J | J | impulse | effective impulse of the impact on the pier
 tJ | t_\mathrm{J} | time | time from which the pier vibrates freely
 xJ | x_\mathrm{J} | length | displacement of the pier at $t_\mathrm{J}$, from its rest under $Q$
 dxJ | \dot x_\mathrm{J} | speed | velocity of the pier at $t_\mathrm{J}$, after the impact
