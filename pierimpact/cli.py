@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import pierimpact
 from pierimpact.checks import InputError
-from pierimpact.teaching.launch import DEFAULT_FOLDER, TeachError, open_notebooks, serve_app
+from pierimpact.teaching.launch import DEFAULT_FOLDER, TeachError, open_notebooks
 
 _REPORT = """\
 Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
@@ -79,7 +79,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _teach(app: bool, folder: str, browser: bool) -> int:
     try:
-        return (serve_app if app else open_notebooks)(folder, browser=browser)
+        return open_notebooks(folder, app=app, browser=browser)
     except TeachError as error:
         _complain(error)
         return 1

@@ -29,7 +29,7 @@ def test_the_readers_own_copies_are_opened(tmp_path, started):
 
 
 def test_the_app_shows_the_explorer(tmp_path, started):
-    teach.serve_app(tmp_path)
+    teach.open_notebooks(tmp_path, app=True)
     assert started == [(["-m", "voila", "explorer.ipynb"], tmp_path)]
 
 

@@ -126,8 +126,9 @@ def panel(
         Margins [px].
     """
     width, height = 72.0 / PIXEL * figure.get_size_inches()
-    figure.subplots_adjust(left / width, bottom / height, 1.0 - right / width, 1.0 - top / height)
-    axes = figure.add_subplot(title=title, xlabel=x_label, ylabel=y_label)
+    size = 1.0 - (left + right) / width, 1.0 - (top + bottom) / height
+    axes = figure.add_axes((left / width, bottom / height, *size))
+    axes.set(title=title, xlabel=x_label, ylabel=y_label)
     axes.locator_params(axis="y", nbins=6)
     return axes
 

@@ -42,13 +42,12 @@ class Animation:
     @cached_property
     def scene(self) -> Scene:
         """The fixed parts of the picture."""
-        scenario = self.scenario
-        return Scene(
-            truck=scenario.truck,
-            column=scenario.struck_column,
-            exaggeration=self._exaggeration,
-            largest=float(np.abs(scenario.history.reaction).max()),
-        )
+        history = self.scenario.history
+        largest = float(np.abs(history.reaction).max())
+        raw = SWING / float(np.abs(history.pier_displacement).max())
+        unit = 10.0 ** math.floor(math.log10(raw))
+        scale = max(unit * n for n in (1.0, 2.0, 5.0) if unit * n <= raw * 1.001)
+        return Scene(self.scenario.truck, self.scenario.struck_column, scale, largest)
 
     @cached_property
     def _frames(self) -> Array:
@@ -66,13 +65,6 @@ class Animation:
         ]
         others = (np.interp(self.times, history.time, samples) for samples in series)
         return np.array([self.times, pier, self.scenario.pier.stiffness * pier, *others]).T
-
-    @property
-    def _exaggeration(self) -> float:
-        """Scale to which the pier's displacement is drawn, a round number."""
-        raw = SWING / float(np.abs(self.scenario.history.pier_displacement).max())
-        unit = 10.0 ** math.floor(math.log10(raw))
-        return max(unit * n for n in (1.0, 2.0, 5.0) if unit * n <= raw * 1.001)
 
     def phase(self, frame: Frame) -> str:
         """Return the phase of the collision at a frame, as a sentence."""
@@ -94,10 +86,9 @@ class Animation:
 def _moments(scenario: Scenario) -> list[float]:
     """Return the instants of the contacts and peaks [s]."""
     history = scenario.history
-    peaks = (history.engine_peak, history.cargo_peak)
-    moments = [history.engine_contact_time, history.cargo_contact_time]
-    moments += [peak.time for peak in peaks if peak is not None]
-    return [moment for moment in moments if moment is not None]
+    contacts = (history.engine_contact_time, history.cargo_contact_time)
+    peaks = [peak.time for peak in scenario.peaks.values() if peak is not None]
+    return [time for time in contacts if time is not None] + peaks
 
 
 def _free_crush(spring: CrushSpring, crush: Array) -> Array:

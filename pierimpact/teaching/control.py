@@ -32,39 +32,31 @@ class Control:
         self._changed = changed
         self._busy = False
         name = ipw.HTML(
-            f'<span style="font-size:12.5px">{variable.label} '
+            f'<span style="font-size:12.5px">{variable.symbol.heading} '
             f"{symbol(variable.symbol.latex)}</span>",
             layout=ipw.Layout(height="22px", margin="0"),
         )
         if variable.choices:
-            self.choice = ipw.Dropdown(
-                options=variable.choices, value=value, layout=ipw.Layout(width="110px")
-            )
+            width = ipw.Layout(width="110px")
+            self.choice = ipw.Dropdown(options=variable.choices, value=value, layout=width)
             self.choice.observe(self._chosen, "value")
             name.layout.width = "150px"
             self.widget: ipw.Widget = ipw.HBox([name, self.choice])
             return
-        common = {"readout": False, "layout": ipw.Layout(flex="1 1 auto", width="auto")}
-        shown = float(value) / variable.size
+        slider, low, high = ipw.FloatSlider, variable.low, variable.high
         if variable.log:
-            low, high = math.log10(variable.low), math.log10(variable.high)
-            self.slider = ipw.FloatLogSlider(
-                value=shown, min=low, max=high, step=variable.step, **common
-            )
-        else:
-            self.slider = ipw.FloatSlider(
-                value=shown, min=variable.low, max=variable.high, step=variable.step, **common
-            )
-        self.box = ipw.Text(
-            value=variable.shown(float(value)),
-            continuous_update=False,
-            layout=ipw.Layout(width="96px"),
+            slider, low, high = ipw.FloatLogSlider, math.log10(low), math.log10(high)
+        wide = ipw.Layout(flex="1 1 auto", width="auto")
+        shown = float(value) / variable.size
+        self.slider = slider(
+            value=shown, min=low, max=high, step=variable.step, readout=False, layout=wide
         )
+        narrow, words = ipw.Layout(width="96px"), variable.shown(float(value))
+        self.box = ipw.Text(value=words, continuous_update=False, layout=narrow)
         self.slider.observe(self._slid, "value")
         self.box.observe(self._typed, "value")
-        self.widget = ipw.VBox(
-            [name, ipw.HBox([self.slider, self.box])], layout=ipw.Layout(margin="0 0 2px 0")
-        )
+        row = ipw.HBox([self.slider, self.box])
+        self.widget = ipw.VBox([name, row], layout=ipw.Layout(margin="0 0 2px 0"))
 
     @property
     def value(self) -> float | str:
@@ -84,11 +76,7 @@ class Control:
         self._value = value
         self._busy = True
         try:
-            if self.variable.choices:
-                self.choice.value = value
-            else:
-                self.box.value = self.variable.shown(float(value))
-                self._move_slider(float(value))
+            self._show(value)
         finally:
             self._busy = False
         self._changed()
@@ -119,9 +107,13 @@ class Control:
             self._value = error
             self._changed()
 
-    def _move_slider(self, value: float) -> None:
+    def _show(self, value: float | str) -> None:
         variable = self.variable
-        shown = min(max(value / variable.size, variable.low), variable.high)
+        if variable.choices:
+            self.choice.value = value
+            return
+        self.box.value = variable.shown(float(value))
+        shown = min(max(float(value) / variable.size, variable.low), variable.high)
         # A slider that snaps to its step would otherwise overwrite the value typed.
         if abs(self.slider.value - shown) > 1e-9 * abs(shown):
             self.slider.value = shown

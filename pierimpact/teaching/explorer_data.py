@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,26 +16,20 @@ from pierimpact.plots.amplification import Amplification
 from pierimpact.plots.comparison import Bar
 from pierimpact.plots.style import BODIES, GREEN, GREY
 from pierimpact.symbols import BY_KEY
-from pierimpact.teaching.scenario import Scenario
+from pierimpact.teaching.scenario import SPRING, Scenario
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
 
 Array = NDArray[np.float64]
-_SPRING = tuple(CrushSpring.__dataclass_fields__)
 
 #: Frequency ratios of the amplification: those of all piers, for engine and cargo alike [-].
 RATIOS = np.geomspace(0.02, 50.0, 141)
 #: How far each parameter is moved, as in the parametric study [-].
 CHANGE = 0.3
 #: The parameters whose influence is shown, from above.
-PARAMETERS = tuple(
-    BY_KEY[key]
-    for key in (
-        *(f"{spring}.{name}" for spring in ("engine_spring", "body_spring") for name in _SPRING),
-        "engine_mass",
-        "body_mass",
-        "friction_force",
-    )
+PARAMETERS = (
+    *(BY_KEY[f"{spring}.{name}"] for spring in ("engine_spring", "body_spring") for name in SPRING),
+    *(BY_KEY[name] for name in ("engine_mass", "body_mass", "friction_force")),
 )
 
 
@@ -52,11 +46,8 @@ def by_height(column: PierColumn) -> ByHeight:
     """Return a column's stiffness and mass against the impact height."""
     heights = np.linspace(0.04, 0.96, 47) * column.height
     along = [column.struck_at(float(height)) for height in heights]
-    return ByHeight(
-        heights,
-        np.array([struck.stiffness for struck in along]),
-        np.array([struck.mass for struck in along]),
-    )
+    stiffness, mass = np.array([(struck.stiffness, struck.mass) for struck in along]).T
+    return ByHeight(heights, stiffness, mass)
 
 
 def short_procedure(scenario: Scenario) -> dict[str, float]:
@@ -122,13 +113,8 @@ def influences(scenario: Scenario) -> dict[str, Array | None]:
         For "engine" and "cargo": the change with the parameter smaller and larger, nan where the
         peak is gone [-]; None where there is no such peak to begin with.
     """
-    factors = (1.0 - CHANGE, 1.0 + CHANGE)
-    trucks = [
-        _changed(scenario.truck, parameter.key, factor)
-        for parameter in PARAMETERS
-        for factor in factors
-    ]
-    pier = scenario.pier
+    truck, pier, factors = scenario.truck, scenario.pier, (1.0 - CHANGE, 1.0 + CHANGE)
+    trucks = [_changed(truck, symbol.key, factor) for symbol in PARAMETERS for factor in factors]
     changed = peak_reactions(trucks, pier.mass, pier.stiffness, pier.damping_ratio, scenario.speed)
     return {
         body: None if peak is None else getattr(changed, body).reshape(-1, 2) / peak.reaction - 1.0
@@ -141,11 +127,9 @@ def _changed(truck: Truck, key: str, factor: float) -> Truck:
     spring, _, name = key.rpartition(".")
     if not spring:
         return replace(truck, **{name: factor * getattr(truck, name)})
-    values = {field: getattr(getattr(truck, spring), field) for field in _SPRING}
-    values[name] *= factor
-    values["unloading_stiffness"] = max(
-        values["unloading_stiffness"],
-        values["stiffness"],
-        values["plateau_force"] / values["plateau_length"],
-    )
-    return replace(truck, **{spring: CrushSpring(**values)})  # type: ignore[arg-type]
+    law = {field: getattr(getattr(truck, spring), field) for field in SPRING}
+    law[name] *= factor
+    least = max(law["stiffness"], law["plateau_force"] / law["plateau_length"])
+    law["unloading_stiffness"] = max(law["unloading_stiffness"], least)
+    changed: Any = {spring: CrushSpring(**law)}
+    return replace(truck, **changed)

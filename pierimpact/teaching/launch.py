@@ -18,12 +18,6 @@ class TeachError(RuntimeError):
     """The notebooks cannot be opened; the message says why in one line."""
 
 
-def teaching_files() -> list[Path]:
-    """Return the notebooks and their example."""
-    folder = shipped("notebooks")
-    return sorted([*folder.glob("0*.ipynb"), folder / "explorer.ipynb", *folder.glob("*.yaml")])
-
-
 def copy_notebooks(folder: str | Path = DEFAULT_FOLDER) -> Path:
     """Copy the notebooks to a folder of the reader's; what is there already is kept as it is.
 
@@ -42,10 +36,10 @@ def copy_notebooks(folder: str | Path = DEFAULT_FOLDER) -> Path:
     InputError
         When the folder cannot be written to.
     """
-    folder = Path(folder).absolute()
+    folder, ours = Path(folder).absolute(), shipped("notebooks")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for file in teaching_files():
+        for file in (*ours.glob("0*.ipynb"), ours / "explorer.ipynb", *ours.glob("*.yaml")):
             if not (folder / file.name).exists():
                 shutil.copyfile(file, folder / file.name)
     except OSError as error:
@@ -53,13 +47,17 @@ def copy_notebooks(folder: str | Path = DEFAULT_FOLDER) -> Path:
     return folder
 
 
-def open_notebooks(folder: str | Path = DEFAULT_FOLDER, *, browser: bool = True) -> int:
-    """Open the course in JupyterLab and return the exit code when it ends.
+def open_notebooks(
+    folder: str | Path = DEFAULT_FOLDER, *, app: bool = False, browser: bool = True
+) -> int:
+    """Open the course in JupyterLab, or the explorer alone; return the exit code when it ends.
 
     Parameters
     ----------
     folder : str or Path, optional
         Where the reader's copies of the notebooks are, or come to be.
+    app : bool, optional
+        Whether to serve the explorer as a page without code, by Voilà.
     browser : bool, optional
         Whether to open a browser.
 
@@ -68,31 +66,12 @@ def open_notebooks(folder: str | Path = DEFAULT_FOLDER, *, browser: bool = True)
     InputError
         When the folder cannot be written to.
     TeachError
-        When JupyterLab or the widgets are not installed.
+        When JupyterLab, or Voilà, or the widgets are not installed.
     """
-    _need("jupyterlab", "ipywidgets")
+    program, notebook = ("voila", "explorer") if app else ("jupyterlab", "01_collision")
+    _need(program, "ipywidgets")
     options = [] if browser else ["--no-browser"]
-    return _run(["jupyterlab", *options, "01_collision.ipynb"], copy_notebooks(folder))
-
-
-def serve_app(folder: str | Path = DEFAULT_FOLDER, *, browser: bool = True) -> int:
-    """Serve the explorer as a page without code, and return the exit code when it ends.
-
-    Parameters
-    ----------
-    folder, browser
-        As in `open_notebooks`.
-
-    Raises
-    ------
-    InputError
-        When the folder cannot be written to.
-    TeachError
-        When Voilà or the widgets are not installed.
-    """
-    _need("voila", "ipywidgets")
-    options = [] if browser else ["--no-browser"]
-    return _run(["voila", *options, "explorer.ipynb"], copy_notebooks(folder))
+    return _run([program, *options, f"{notebook}.ipynb"], copy_notebooks(folder))
 
 
 def _need(*modules: str) -> None:

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from pierimpact.design.procedure import design_values
 from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.files.trucks import load_truck
 from pierimpact.pier.column import PierColumn, StruckColumn
-from pierimpact.pier.equivalent import EquivalentPier, natural_frequency, stiffness_at_frequency
+from pierimpact.pier.equivalent import EquivalentPier, stiffness_at_frequency
 from pierimpact.pier.sections import CircularSection
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
@@ -24,6 +24,8 @@ from pierimpact.vehicle.truck import Truck
 Array = NDArray[np.float64]
 
 REFERENCE = load_truck("single-unit-8t")
+#: Names of the parameters of a crush law.
+SPRING = tuple(CrushSpring.__dataclass_fields__)
 # A history on show covers so much time at least, and more in steps, so that its axis keeps still
 # while a slider moves [s].
 _SHORTEST, _STEP = 0.16, 0.02
@@ -57,21 +59,6 @@ def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -
     )
 
 
-def body_frequency(mass: float, stiffness: float) -> float:
-    """Frequency f_i = √(k_i/m_i)/2π of a body on its steep spring [Hz]."""
-    return float(natural_frequency(mass, stiffness))
-
-
-def _until(history: CollisionHistory, end: float) -> CollisionHistory:
-    """Return a history without what comes after a time [s]; its peaks stay those of the whole."""
-    steps = [
-        (state, law, min(length, end - state.time))
-        for state, law, length in history.steps
-        if state.time < end
-    ]
-    return replace(history, steps=steps)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
     """The values behind the sliders, in SI units; names are those of case and truck files.
@@ -92,6 +79,11 @@ class Scenario:
         Equivalent mass [kg] and frequency [Hz], where they are given instead of a column.
     engine_mass, friction_force and the crush-law parameters : float
         Of the truck; the reference truck's by default.
+
+    Raises
+    ------
+    InputError
+        When a value breaks a rule, by the first property that rests on it.
     """
 
     speed: float = 80.0 / 3.6
@@ -119,41 +111,21 @@ class Scenario:
 
     @cached_property
     def truck(self) -> Truck:
-        """The truck.
-
-        Raises
-        ------
-        InputError
-            When a value breaks a rule.
-        """
-        springs = {}
+        """The truck."""
+        own: dict[str, Any] = {
+            name: getattr(self, name) for name in ("engine_mass", "friction_force")
+        }
         for body in ("engine", "body"):
+            law = {name: getattr(self, f"{body}_{name}") for name in SPRING}
             try:
-                springs[f"{body}_spring"] = CrushSpring(
-                    **{
-                        name: getattr(self, f"{body}_{name}")
-                        for name in CrushSpring.__dataclass_fields__
-                    }
-                )
+                own[f"{body}_spring"] = CrushSpring(**law)
             except InputError as error:
                 raise InputError(f"{body} spring: {error}") from None
-        truck = replace(
-            REFERENCE,
-            engine_mass=self.engine_mass,
-            friction_force=self.friction_force,
-            **springs,  # type: ignore[arg-type]
-        )
-        return truck.with_mass(self.truck_mass)
+        return replace(REFERENCE, **own).with_mass(self.truck_mass)
 
     @cached_property
     def column(self) -> PierColumn:
-        """The column.
-
-        Raises
-        ------
-        InputError
-            When a value breaks a rule.
-        """
+        """The column."""
         return PierColumn(
             height=self.column_height,
             section=CircularSection(diameter=self.column_diameter),
@@ -166,34 +138,20 @@ class Scenario:
     @cached_property
     def struck_column(self) -> StruckColumn | None:
         """The column as struck; None where only the pier's mass and frequency are given."""
-        if self.pier_mass is not None and self.pier_frequency is not None:
-            return None
-        return self.column.struck_at(self.impact_height)
+        given = self.pier_mass is not None and self.pier_frequency is not None
+        return None if given else self.column.struck_at(self.impact_height)
 
     @cached_property
     def pier(self) -> EquivalentPier:
-        """The pier.
-
-        Raises
-        ------
-        InputError
-            When a value breaks a rule.
-        """
-        if self.pier_mass is not None and self.pier_frequency is not None:
-            return EquivalentPier.from_frequency(
-                self.pier_mass, self.pier_frequency, self.damping_ratio
-            )
+        """The pier."""
+        mass, frequency = self.pier_mass, self.pier_frequency
+        if mass is not None and frequency is not None:
+            return EquivalentPier.from_frequency(mass, frequency, self.damping_ratio)
         return self.column.equivalent(self.impact_height, self.damping_ratio)
 
     @cached_property
     def collision(self) -> Collision:
-        """The collision.
-
-        Raises
-        ------
-        InputError
-            When a value breaks a rule.
-        """
+        """The collision."""
         return Collision(self.truck, self.pier, self.speed)
 
     @cached_property
@@ -205,7 +163,12 @@ class Scenario:
         end = max(_SHORTEST, _STEP * math.ceil(1.1 * last / _STEP))
         if history.end.time < end:
             history = simulate(self.truck, self.pier, self.speed, end)
-        return _until(history, end)
+        steps = [
+            (state, law, min(length, end - state.time))
+            for state, law, length in history.steps
+            if state.time < end
+        ]
+        return replace(history, steps=steps)  # its peaks stay those of the whole
 
     @property
     def peaks(self) -> dict[str, Peak | None]:

@@ -49,9 +49,7 @@ def truck_text(scenario: Scenario) -> str:
         *_entry("friction_on", f'"{scenario.truck.friction_on}"'),
     ]
     for name in CRUSH:
-        body, _, rest = name.partition("_")
-        key = name if name in ("engine_mass", "friction_force") else f"{body}_spring.{rest}"
-        lines += _entry(key, *_given(name, scenario).split(" "))
+        lines += _entry(VARIABLES[name].symbol.key, *_given(name, scenario).split(" "))
     return "\n".join([*lines, ""])
 
 

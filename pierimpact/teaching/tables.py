@@ -35,9 +35,8 @@ def code_values(speed: float = 80.0 / 3.6, mass: float = REFERENCE.mass) -> HTML
     for code in code_forces(speed, mass):
         height = "—"
         if code.height is not None:
-            height = f"{printed(code.height.value, 'length', 'SI', given=True)}"
-            if not code.height.verified:
-                height += f" ({code.height.remark})"
+            remark = "" if code.height.verified else f" ({code.height.remark})"
+            height = f"{printed(code.height.value, 'length', 'SI', given=True)}{remark}"
         force = printed(code.along.value, "force", "SI")
         rows.append((code.code, code.clause, str(force), code.along.remark, height, code.note))
     heads = ("Code", "Clause", "Force along", "Status", "Height", "Note")
@@ -47,18 +46,17 @@ def code_values(speed: float = 80.0 / 3.6, mass: float = REFERENCE.mass) -> HTML
 def accuracy() -> HTML:
     """Return how the design procedure compares with the full model in the parametric study."""
     outcome = json.loads(OUTCOME_FILE.read_text(encoding="utf-8"))
-    formats = {
-        "cases": "d",
-        "mean": ".2f",
-        "coefficient of variation": ".1%",
-        "1st percentile": ".2f",
-        "99th percentile": ".2f",
-    }
+    columns = (
+        ("Collisions", "cases", "d"),
+        ("Mean", "mean", ".2f"),
+        ("c.o.v.", "coefficient of variation", ".1%"),
+        ("1st percentile", "1st percentile", ".2f"),
+        ("99th percentile", "99th percentile", ".2f"),
+    )
     rows = [
-        (level, reaction, *(format(bands["all"][name], form) for name, form in formats.items()))
+        (level, reaction, *(format(bands["all"][name], form) for _, name, form in columns))
         for level, reactions in outcome["predicted over CMSD"].items()
         for reaction, bands in reactions.items()
     ]
-    heads = ("Level", "Reaction", "Collisions", "Mean", "c.o.v.", "1st percentile",
-             "99th percentile")  # fmt: skip
-    return HTML(table(heads, rows, right=(2, 3, 4, 5, 6)))  # type: ignore[no-untyped-call]
+    heads = ("Level", "Reaction", *(head for head, _, _ in columns))
+    return HTML(table(heads, rows, right=range(2, len(heads))))  # type: ignore[no-untyped-call]

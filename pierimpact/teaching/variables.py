@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from pierimpact.checks import InputError, brief, number
-from pierimpact.symbols import BY_KEY, SYMBOLS, Symbol, dimension
+from pierimpact.symbols import SYMBOLS, Symbol, dimension
 from pierimpact.units import parse
 
 
@@ -36,16 +36,11 @@ class Variable:
     choices: tuple[str, ...] = ()
 
     @property
-    def label(self) -> str:
-        """The name beside the control."""
-        return self.symbol.heading
-
-    @property
     def size(self) -> float:
         """Return the unit in SI units."""
         if not self.unit:
             return 1.0
-        return parse(self.label, f"1 {self.unit}", dimension(self.symbol))
+        return parse(self.symbol.heading, f"1 {self.unit}", dimension(self.symbol))
 
     def shown(self, value: float) -> str:
         """Return a value in SI units as it would be typed."""
@@ -63,38 +58,25 @@ class Variable:
             plain = float(text)
         except ValueError:
             if self.unit:
-                return parse(self.label, text.strip(), dimension(self.symbol))
-            raise InputError(f"{self.label} must be a number, got {brief(text)}") from None
-        return number(self.label, plain) * self.size
+                return parse(self.symbol.heading, text.strip(), dimension(self.symbol))
+            raise InputError(f"{self.symbol.heading} must be a number, got {brief(text)}") from None
+        return number(self.symbol.heading, plain) * self.size
 
 
-def _spring(
-    body: str, force: tuple[float, float], length: tuple[float, float], stiff: tuple[float, float]
-) -> dict[str, Variable]:
-    """Return the variables of the crush law of engine or body, by their ranges."""
-
-    def of(name: str) -> Symbol:
-        return BY_KEY[f"{body}_spring.{name}"]
-
-    soft, hard = stiff
-    return {
-        f"{body}_plateau_force": Variable(of("plateau_force"), "kN", *force, 10.0),
-        f"{body}_plateau_length": Variable(of("plateau_length"), "m", *length, 0.05),
-        f"{body}_stiffness": Variable(of("stiffness"), "MN/m", soft, hard, 0.01, log=True),
-        f"{body}_unloading_stiffness": Variable(
-            of("unloading_stiffness"), "MN/m", soft, 10.0 * hard, 0.01, log=True
-        ),
-    }
-
-
-_ENDS = ("fixed", "pinned", "free")
 #: The truck's parameters.
 CRUSH = {
     "engine_mass": Variable(SYMBOLS["m1"], "kg", 200.0, 2000.0, 50.0),
     "friction_force": Variable(SYMBOLS["cs"], "kN", 0.0, 100.0, 0.5),
-    **_spring("engine", force=(20.0, 600.0), length=(0.05, 1.5), stiff=(20.0, 600.0)),
-    **_spring("body", force=(50.0, 1500.0), length=(0.2, 4.0), stiff=(1.0, 100.0)),
+    "engine_plateau_force": Variable(SYMBOLS["P1"], "kN", 20.0, 600.0, 10.0),
+    "engine_plateau_length": Variable(SYMBOLS["d1"], "m", 0.05, 1.5, 0.05),
+    "engine_stiffness": Variable(SYMBOLS["k1"], "MN/m", 20.0, 600.0, 0.01, log=True),
+    "engine_unloading_stiffness": Variable(SYMBOLS["ku1"], "MN/m", 20.0, 6000.0, 0.01, log=True),
+    "body_plateau_force": Variable(SYMBOLS["P2"], "kN", 50.0, 1500.0, 10.0),
+    "body_plateau_length": Variable(SYMBOLS["d2"], "m", 0.2, 4.0, 0.05),
+    "body_stiffness": Variable(SYMBOLS["k2"], "MN/m", 1.0, 100.0, 0.01, log=True),
+    "body_unloading_stiffness": Variable(SYMBOLS["ku2"], "MN/m", 1.0, 1000.0, 0.01, log=True),
 }
+_ENDS = ("fixed", "pinned", "free")
 #: Every variable, by its name in a `Scenario`.
 VARIABLES = {
     "speed": Variable(SYMBOLS["V"], "km/h", 10.0, 130.0, 1.0),

@@ -7,20 +7,15 @@ from pierimpact.teaching.scenario import Scenario
 from pierimpact.units import printed
 
 _PILLAR = Scenario(column_diameter=0.8, column_height=4.0, top="free", impact_height=1.2)
-
-
-def _flexure() -> float:
-    return _PILLAR.impact_height**3 / (3.0 * _PILLAR.column.flexural_rigidity)
-
-
-def _shear() -> float:
-    return _PILLAR.impact_height / _PILLAR.column.shear_rigidity
+# Its stiffness in flexure alone and in shear alone.
+_FLEXURE = 3.0 * _PILLAR.column.flexural_rigidity / _PILLAR.impact_height**3
+_SHEAR = _PILLAR.column.shear_rigidity / _PILLAR.impact_height
+_COLUMN = Scenario().column
 
 
 def _softer_when_higher() -> str:
-    low, high = Scenario(impact_height=1.05), Scenario(impact_height=1.35)
-    stiffer = high.pier.stiffness > low.pier.stiffness
-    return "stiffer" if stiffer else "softer"
+    low, high = (_COLUMN.struck_at(height).stiffness for height in (1.05, 1.35))
+    return "stiffer" if high > low else "softer"
 
 
 QUESTIONS = (
@@ -33,10 +28,10 @@ QUESTIONS = (
         dimension="stiffness",
         answer=lambda: _PILLAR.pier.stiffness,
         traps=(
-            Trap(lambda: 1.0 / _flexure(), "That leaves out the shear deflection."),
-            Trap(lambda: 1.0 / _shear(), "That leaves out the flexural deflection."),
+            Trap(lambda: _FLEXURE, "That leaves out the shear deflection."),
+            Trap(lambda: _SHEAR, "That leaves out the flexural deflection."),
             Trap(
-                lambda: 1.0 / _flexure() + 1.0 / _shear(),
+                lambda: _FLEXURE + _SHEAR,
                 "The deflections of flexure and shear add up, not their stiffnesses.",
             ),
         ),
@@ -44,14 +39,14 @@ QUESTIONS = (
     ),
     Question(
         words=f"The explorer’s default column has a mass of "
-        f"{printed(Scenario().column.mass_per_length, 'mass per length', 'SI')} and is "
-        f"{Scenario().column_height:g} m high; the integral of φ² over its height is "
-        f"{Scenario().column.struck_at(1.2).values['phi2']:.4g} m. What is m_p?",
+        f"{printed(_COLUMN.mass_per_length, 'mass per length', 'SI')} and is "
+        f"{_COLUMN.height:g} m high; the integral of φ² over its height is "
+        f"{_COLUMN.struck_at(1.2).values['phi2']:.4g} m. What is m_p?",
         dimension="mass",
         answer=lambda: Scenario().pier.mass,
         traps=(
             Trap(
-                lambda: Scenario().column.mass_per_length * Scenario().column_height,
+                lambda: _COLUMN.mass_per_length * _COLUMN.height,
                 "That is the whole column; each part of it counts with its φ².",
             ),
         ),

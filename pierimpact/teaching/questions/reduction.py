@@ -2,28 +2,28 @@
 
 import math
 
+from pierimpact.pier.equivalent import natural_frequency
 from pierimpact.teaching.checker import Question, Trap
-from pierimpact.teaching.questions.common import BODY, ENGINE, ENGINE_NOT_CARGO, KMH
-from pierimpact.teaching.scenario import EXAMPLE, REFERENCE, body_frequency
+from pierimpact.teaching.questions.common import BODY, ENGINE, ENGINE_NOT_CARGO, KMH, M1, M2
+from pierimpact.teaching.scenario import EXAMPLE
+from pierimpact.vehicle.crush import CrushSpring
 
 
-def _beta(body: str) -> float:
-    mass, spring = (
-        (REFERENCE.engine_mass, ENGINE) if body == "engine" else (REFERENCE.body_mass, BODY)
-    )
-    return EXAMPLE.pier.frequency / body_frequency(mass, spring.stiffness)
+def _beta(mass: float, spring: CrushSpring) -> float:
+    """Return the frequency ratio of a body on its steep spring, on the pier of the example."""
+    return EXAMPLE.pier.frequency / float(natural_frequency(mass, spring.stiffness))
 
 
 QUESTIONS = (
     Question(
-        words=f"The engine has m₁ = {REFERENCE.engine_mass:g} kg and k₁ = "
+        words=f"The engine has m₁ = {M1:g} kg and k₁ = "
         f"{ENGINE.stiffness / 1e6:g} MN/m, the pier has f_p = 30 Hz. What is the engine’s "
         "frequency ratio β?",
-        answer=lambda: _beta("engine"),
+        answer=lambda: _beta(M1, ENGINE),
         traps=(
-            Trap(lambda: _beta("cargo"), ENGINE_NOT_CARGO),
+            Trap(lambda: _beta(M2, BODY), ENGINE_NOT_CARGO),
             Trap(
-                lambda: 1.0 / _beta("engine"),
+                lambda: 1.0 / _beta(M1, ENGINE),
                 "β is the pier’s frequency over the engine’s, not the inverse.",
             ),
         ),
@@ -31,16 +31,11 @@ QUESTIONS = (
     ),
     Question(
         words=f"The engine strikes the pier at 50 km/h. What is v₁ √(k₁ m₁), the largest force of "
-        f"its spring on a rigid pier? (m₁ = {REFERENCE.engine_mass:g} kg, k₁ = "
+        f"its spring on a rigid pier? (m₁ = {M1:g} kg, k₁ = "
         f"{ENGINE.stiffness / 1e6:g} MN/m)",
         dimension="force",
-        answer=lambda: 50.0 * KMH * math.sqrt(ENGINE.stiffness * REFERENCE.engine_mass),
-        traps=(
-            Trap(
-                lambda: 50.0 * KMH * math.sqrt(BODY.stiffness * REFERENCE.body_mass),
-                ENGINE_NOT_CARGO,
-            ),
-        ),
+        answer=lambda: 50.0 * KMH * math.sqrt(ENGINE.stiffness * M1),
+        traps=(Trap(lambda: 50.0 * KMH * math.sqrt(BODY.stiffness * M2), ENGINE_NOT_CARGO),),
         reason="Speed, stiffness and mass: nothing else enters a hard impact.",
     ),
     Question(

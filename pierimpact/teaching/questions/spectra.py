@@ -9,6 +9,7 @@ from pierimpact.teaching.questions.common import (
     PEAKS,
     cargo_peak,
     engine_peak,
+    growth,
 )
 from pierimpact.teaching.scenario import EXAMPLE, FREQUENCIES, Scenario
 
@@ -23,9 +24,9 @@ def _crossing() -> float:
 
 
 def _least_by_mass() -> str:
-    light, heavy = (Scenario(truck_mass=m, pier_mass=8e3, pier_frequency=60.0) for m in (8e3, 16e3))
-    changes = (engine_peak(heavy) / engine_peak(light), cargo_peak(heavy) / cargo_peak(light))
-    return PEAKS[0] if abs(changes[0] - 1) < abs(changes[1] - 1) else PEAKS[1]
+    pair = (Scenario(truck_mass=m, pier_mass=8e3, pier_frequency=60.0) for m in (8e3, 16e3))
+    engine, cargo = growth(*pair)
+    return PEAKS[0] if abs(engine - 1) < abs(cargo - 1) else PEAKS[1]
 
 
 QUESTIONS = (
