@@ -27,12 +27,6 @@ class DesignReaction:
 
     Parameters
     ----------
-    engine : float
-        Engine reaction [N].
-    engine_contact : bool
-        Whether the engine meets the pier; without, `engine` is what the plateaus do.
-    cargo : float or None
-        Cargo reaction [N]; None where the cargo does not meet the pier.
     level : {"short", "long"}
         Level of the procedure.
     collision : Collision
@@ -42,12 +36,25 @@ class DesignReaction:
         this case.
     """
 
-    engine: float
-    engine_contact: bool
-    cargo: float | None
     level: str
     collision: Collision
     values: dict[str, float] = field(repr=False)
+
+    @property
+    def engine(self) -> float:
+        """Engine reaction; without engine contact, the plateau peak [N]."""
+        return self.values["R1"]
+
+    @property
+    def cargo(self) -> float | None:
+        """Cargo reaction [N]; None where the cargo does not meet the pier."""
+        reaction = self.values["R2"]
+        return None if math.isnan(reaction) else reaction
+
+    @property
+    def engine_contact(self) -> bool:
+        """Whether the engine meets the pier."""
+        return self.values["v1"] > 0.0
 
     @property
     def reaction(self) -> float:
@@ -70,8 +77,8 @@ class DesignReaction:
         found = domain.warnings(self.collision.parameters)
         if self.overlapping:
             found += (
-                "the cargo meets the pier before the engine lets go: the design formulas take "
-                "one after the other",
+                "the cargo meets the pier before the engine has separated: the design formulas "
+                "take one after the other",
             )
         return found
 
@@ -82,7 +89,7 @@ class DesignReaction:
 
     @property
     def overlapping(self) -> bool:
-        """Whether the cargo meets the pier before the engine lets go."""
+        """Whether the cargo meets the pier before the engine has separated from it."""
         engine_end = self.values.get("tJ", self.values["t1"])
         return self.cargo is not None and self.values["t2"] <= engine_end
 
@@ -152,15 +159,7 @@ def design_reaction(
     collision = Collision(truck, pier, speed)
     found = design_values(collision.parameters, level)
     values = {name: float(value) for name, value in found.items()}
-    cargo = values["R2"]
-    return DesignReaction(
-        engine=values["R1"],
-        engine_contact=values["v1"] > 0.0,
-        cargo=None if math.isnan(cargo) else cargo,
-        level=ALIASES.get(level, level),
-        collision=collision,
-        values=values,
-    )
+    return DesignReaction(level=ALIASES.get(level, level), collision=collision, values=values)
 
 
 def design_reactions(

@@ -51,7 +51,7 @@ class Results(BaseModel):
     governs: str
     utilisations: dict[str, float]  #: by "shear" and "moment", where there is a resistance
     outside: tuple[Outside, ...]  #: values outside the studied domain of the design procedure
-    overlapping: bool  #: whether the cargo meets the pier before the engine lets go
+    overlapping: bool  #: whether the cargo meets the pier before the engine has separated
 
     @classmethod
     def of(cls, calculation: Calculation) -> Self:

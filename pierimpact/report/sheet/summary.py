@@ -149,7 +149,7 @@ def limits_of_the_study(outside: Sequence[Outside], overlapping: bool, system: s
     outside : sequence of Outside
         The values outside the studied domain.
     overlapping : bool
-        Whether the cargo meets the pier before the engine lets go.
+        Whether the cargo meets the pier before the engine has separated.
     system : {"SI", "US"}
         Units to print in.
     """
@@ -159,5 +159,5 @@ def limits_of_the_study(outside: Sequence[Outside], overlapping: bool, system: s
         shown, least, most = (printed(value, quantity, system, given=True) for value in values)
         clauses.append(f"{meaning} {shown} outside the studied {least.number} to {most}")
     if overlapping:
-        clauses.append("the cargo meets the pier before the engine lets go")
+        clauses.append("the cargo meets the pier before the engine has separated")
     return clauses
