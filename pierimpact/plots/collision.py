@@ -90,9 +90,16 @@ def draw_forces(axes: Axes, history: CollisionHistory) -> None:
         colour = BODIES.get(name, MUTED)
         axes.axvspan(1e3 * start, 1e3 * end, color=colour, alpha=0.13, linewidth=0.0)
         if 1e3 * (end - start) > 0.016 * len(name) * axes.get_xlim()[1]:
-            middle, small = 500.0 * (start + end), {"color": colour, "fontsize": 10.0 * PIXEL}
-            above = {"xycoords": ("data", "axes fraction"), "ha": "center"}
-            note(axes, name, (middle, 0.0), (0.0, 4.0 * PIXEL), **above, **small)
+            note(
+                axes,
+                name,
+                (500.0 * (start + end), 0.0),
+                (0.0, 4.0 * PIXEL),
+                xycoords=("data", "axes fraction"),
+                ha="center",
+                color=colour,
+                fontsize=10.0 * PIXEL,
+            )
     for force, line in zip(forces, _FORCES.values(), strict=True):
         axes.plot(time, force, **line)
     mark_peaks(axes, history, "SI", 1e6, BODIES)
@@ -125,8 +132,8 @@ def mark_peaks(
         axes.plot([x], [y], "o", color=colours[name], markersize=5.0, zorder=5)
         words = f"{name.capitalize()} peak {printed(peak.reaction, 'force', system)}"
         pale = {"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5}
-        offset, side = ((-6, 5), "right") if late else ((6, 5), "left")
-        note(axes, words, (x, y), offset, ha=side, bbox=pale)
+        offset, align = ((-6, 5), "right") if late else ((6, 5), "left")
+        note(axes, words, (x, y), offset, ha=align, bbox=pale)
 
 
 def energy_panel(figure: Figure) -> Axes:
@@ -159,8 +166,8 @@ def draw_instant(axes: Axes, time: float, reaction: float | None = None) -> None
     """Mark an instant [s], and where it is on the reaction [N] if that is drawn."""
     axes.axvline(1e3 * time, color=INK, linewidth=PIXEL, dashes=(3, 2))
     if reaction is not None:
-        place, size = ([1e3 * time], [1e-6 * reaction]), 7.0 * PIXEL
-        axes.plot(*place, "o", color=INK, markersize=size, zorder=6)
+        dot: Any = {"color": INK, "markersize": 7.0 * PIXEL, "zorder": 6}
+        axes.plot([1e3 * time], [1e-6 * reaction], "o", **dot)
 
 
 def _span(history: CollisionHistory) -> tuple[float, float]:

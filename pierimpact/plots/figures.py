@@ -131,9 +131,9 @@ def draw_member_forces(forces: MemberForces, system: str) -> str:
             axes.locator_params(axis="x", nbins=4)
             for height, value, x in _labelled_corners(z, values, shown, name):
                 words = printed(value, quantity, system).number
-                offset, side = ((4, 0), "left") if x >= 0.0 else ((-4, 0), "right")
-                end = "center" if 0.0 < height < z[-1] else "bottom" if height == 0.0 else "top"
-                note(axes, words, (x, height), offset, ha=side, va=end, fontsize=8.5)
+                offset, ha = ((4, 0), "left") if x >= 0.0 else ((-4, 0), "right")
+                va = "center" if 0.0 < height < z[-1] else "bottom" if height == 0.0 else "top"
+                note(axes, words, (x, height), offset, ha=ha, va=va, fontsize=8.5)
         return to_svg(figure)
 
 

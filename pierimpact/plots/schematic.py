@@ -204,10 +204,10 @@ def _draw_spring(
     axes: Axes, start: float, end: float, z: float, colour: str, stroke: float
 ) -> None:
     """Draw a spring as a zigzag, with a plate at its end."""
-    places = np.arange(4 * 7 + 1)  # quarters of its turns
-    heights = 0.17 * np.array([0.0, 1.0, 0.0, -1.0])[places % 4]
+    quarters = np.arange(4 * 7 + 1)  # of its seven turns
+    heights = 0.17 * np.array([0.0, 1.0, 0.0, -1.0])[quarters % 4]
     line: Any = {"color": colour, "linewidth": stroke * PIXEL}
-    axes.plot(start + (end - start) / 28 * places, z + heights, **line)
+    axes.plot(start + (end - start) / quarters[-1] * quarters, z + heights, **line)
     axes.plot([end, end], [z - 0.22, z + 0.22], **line)
 
 
@@ -220,8 +220,8 @@ def _draw_reaction(axes: Axes, scene: Scene, reaction: float, shift: float) -> N
     length = _ARROW * abs(reaction) / scene.largest
     if scene.column is None or length < 0.1:
         return
-    # Towards the truck, and away from it while the pier swings back.
-    end, start = sorted(((tip, z), (tip + length, z)), reverse=reaction <= 0.0)
+    near, far = (tip, z), (tip + length, z)
+    end, start = (near, far) if reaction > 0.0 else (far, near)
     arrow = {
         "arrowstyle": "-|>,head_width=0.25,head_length=0.5",
         "color": INK,

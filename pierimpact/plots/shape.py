@@ -55,9 +55,16 @@ def draw_shape(axes: Axes, struck: StruckColumn) -> None:
         axes.axhline(height, color=MUTED, linewidth=PIXEL)
     axes.axhline(impact, color=VERMILION, linewidth=1.2 * PIXEL, dashes=(4, 3))
     axes.plot([1.0], [impact], "o", color=VERMILION, markerfacecolor="white")
-    small = {"color": VERMILION, "fontsize": 10.0 * PIXEL}
-    right = {"xycoords": ("axes fraction", "data"), "ha": "right"}
-    note(axes, "impact height", (1.0, impact), (0.0, 4.0 * PIXEL), **right, **small)
+    note(
+        axes,
+        "impact height",
+        (1.0, impact),
+        (0.0, 4.0 * PIXEL),
+        xycoords=("axes fraction", "data"),
+        ha="right",
+        color=VERMILION,
+        fontsize=10.0 * PIXEL,
+    )
 
 
 def along_panel(figure: Figure, quantity: str) -> Axes:

@@ -64,17 +64,14 @@ class Exercise:
         self.feedback = ipw.HTML()
         self._checked = ""
         if question.choices:
-            self.box: ipw.Widget = ipw.RadioButtons(
-                options=question.choices, value=None, layout=ipw.Layout(width="auto")
-            )
+            layout = ipw.Layout(width="auto")
+            self.box = ipw.RadioButtons(options=question.choices, value=None, layout=layout)
         else:
-            hint = "a number"
+            hint, layout = "a number", ipw.Layout(width="230px")
             if question.dimension:
                 unit = DIMENSIONS[question.dimension].units.split(",")[0]
                 hint = f"number and unit, e.g. in {unit}"
-            self.box = ipw.Text(
-                placeholder=hint, continuous_update=False, layout=ipw.Layout(width="230px")
-            )
+            self.box = ipw.Text(placeholder=hint, continuous_update=False, layout=layout)
             self.box.observe(self.answer, "value")  # on Enter, and on leaving the box
         button = ipw.Button(description="Check", icon="check", layout=ipw.Layout(width="90px"))
         button.on_click(self.answer)
@@ -124,10 +121,9 @@ def _summary(topic: str) -> str:
     rows = ""
     for number in range(1, len(QUESTIONS[topic]) + 1):
         tries = state.tries.get(number, 0)
-        plural = "try" if tries == 1 else "tries"
-        words = f"solved after {tries} {plural}" if number in state.solved else (
-            f"not solved yet, {tries} {plural}" if tries else "not tried yet"
-        )  # fmt: skip
-        mark = "●" if number in state.solved else "○"
+        count = "1 try" if tries == 1 else f"{tries} tries"
+        mark, words = "○", f"not solved yet, {count}" if tries else "not tried yet"
+        if number in state.solved:
+            mark, words = "●", f"solved after {count}"
         rows += f'<div><span style="color:{GREEN}">{mark}</span> Exercise {number}: {words}</div>'
     return paragraph(f"<b>{len(state.solved)} of {len(QUESTIONS[topic])} solved</b>{rows}")
