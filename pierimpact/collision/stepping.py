@@ -281,22 +281,10 @@ def propagate(
     duration: float = 0.0,
     record: Callable[[State, LinearMotion, float], None] = lambda state, motion, h: None,
 ) -> State:
-    """Propagate one collision until nothing more can happen, and to `duration` at least.
+    """Return the last state of one collision, in which nothing more can happen.
 
-    Parameters
-    ----------
-    parameters : Parameters
-        Floats.
-    duration : float, optional
-        Time to propagate at least [s].
-    record : callable, optional
-        Called after each step with the state it started from, its equations of motion and its
-        length [s].
-
-    Returns
-    -------
-    State
-        The last state.
+    It is propagated for `duration` at least [s]. After each step `record` is called with the state
+    it started from, its equations of motion and its length [s].
 
     Raises
     ------
@@ -316,7 +304,7 @@ def propagate(
 
 
 class Outcomes(NamedTuple):
-    """Peaks of x_p with their times, and times of the first contacts, each of shape (n,)."""
+    """Peaks of x_p with their times, and times of the first contacts, by collision."""
 
     engine_peak: NDArray[np.float64]
     cargo_peak: NDArray[np.float64]
@@ -349,18 +337,11 @@ def propagate_all(
     Parameters
     ----------
     chunks : iterable of Parameters
-        Some collisions at a time; arrays of shape (m,).
-    size : int
-        Number n of the collisions in all chunks.
+        Some collisions at a time, in all as many as `size`.
     initial_state : callable, optional
         From collisions to the states they start from; first touch unless another is given.
     progress : callable, optional
         Called with the number of collisions done since the last call.
-
-    Returns
-    -------
-    Outcomes
-        Arrays of shape (n,), in the order of the collisions.
 
     Raises
     ------

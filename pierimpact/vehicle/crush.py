@@ -64,17 +64,9 @@ class CrushSpring:
         return math.sqrt(self.stiffness / self.unloading_stiffness)
 
     def envelope(self, crush: ArrayLike) -> NDArray[np.float64]:
-        """Virgin loading force E(δ) = min(k_u δ, P) up to d, P + k (δ − d) beyond.
+        """Return the virgin loading force of crushes δ ≥ 0 [m], of the same shape [N].
 
-        Parameters
-        ----------
-        crush : array_like, any shape
-            Crush δ, zero or above [m].
-
-        Returns
-        -------
-        ndarray, shape of `crush`
-            Force [N].
+        E(δ) = min(k_u δ, P) up to d, P + k (δ − d) beyond.
         """
         crush = np.asarray(crush, dtype=float)
         rise = self.stiffness * np.maximum(crush - self.plateau_length, 0.0)
@@ -82,19 +74,9 @@ class CrushSpring:
         return np.asarray(plateau + rise)
 
     def dissipated(self, largest_crush: ArrayLike) -> NDArray[np.float64]:
-        """Energy dissipated by crushing to `largest_crush` and unloading.
+        """Return the energy dissipated up to the largest crushes so far [m], of their shape [J].
 
         The area under the envelope less the triangle that is recovered on unloading.
-
-        Parameters
-        ----------
-        largest_crush : array_like, any shape
-            Largest crush so far [m].
-
-        Returns
-        -------
-        ndarray, shape of `largest_crush`
-            Energy [J].
         """
         crush = np.asarray(largest_crush, dtype=float)
         force = self.envelope(crush)
