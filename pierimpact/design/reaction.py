@@ -67,11 +67,6 @@ class DesignReaction:
         return "engine" if self.reaction == self.engine else "cargo"
 
     @property
-    def nominal_height(self) -> float:
-        """Nominal impact height for these reactions [m]; see `nominal_impact_height`."""
-        return nominal_impact_height(self.engine, self.cargo)
-
-    @property
     def warnings(self) -> tuple[str, ...]:
         """What the formulas were not checked for, a sentence each; empty within the domain."""
         found = domain.warnings(self.collision.parameters)

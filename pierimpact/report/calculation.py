@@ -24,10 +24,18 @@ class Calculation:
 
     case: Case
     struck: StruckColumn  #: the column under a unit force at the nominal impact height
-    pier: EquivalentPier
     history: CollisionHistory  #: the collision by the full model
-    design: DesignReaction  #: the design procedure at its long level
     trial: CollisionHistory | None  #: at the lower nominal height, where a rule decides on it
+
+    @property
+    def pier(self) -> EquivalentPier:
+        """The pier as one degree of freedom."""
+        return self.history.pier
+
+    @cached_property
+    def design(self) -> DesignReaction:
+        """The design procedure at its long level."""
+        return design_reaction(self.case.truck, self.pier, self.case.inputs.speed, "long")
 
     @property
     def governing_peak(self) -> Peak:
@@ -99,23 +107,16 @@ class Calculation:
 
 def calculate(case: Case) -> Calculation:
     """Calculate a case."""
-    trial = None
-    height = case.inputs.impact_height
+
+    def struck_at(height: float) -> tuple[StruckColumn, CollisionHistory]:
+        struck = case.column.struck_at(height)
+        pier = struck.equivalent(case.inputs.damping_ratio)
+        return struck, simulate(case.truck, pier, case.inputs.speed)
+
+    trial, height = None, case.inputs.impact_height
     if height == "auto":
-        trial = _collision(case, LOW_IMPACT_HEIGHT)[1]
+        _, trial = struck_at(LOW_IMPACT_HEIGHT)
         cargo = trial.cargo_peak.reaction if trial.cargo_peak else None
         height = nominal_impact_height(trial.engine_peak.reaction, cargo)
-    pier, history = _collision(case, height)
-    return Calculation(
-        case=case,
-        struck=case.column.struck_at(height),
-        pier=pier,
-        history=history,
-        design=design_reaction(case.truck, pier, case.inputs.speed, "long"),
-        trial=trial,
-    )
-
-
-def _collision(case: Case, impact_height: float) -> tuple[EquivalentPier, CollisionHistory]:
-    pier = case.column.equivalent(impact_height, case.inputs.damping_ratio)
-    return pier, simulate(case.truck, pier, case.inputs.speed)
+    struck, history = struck_at(height)
+    return Calculation(case=case, struck=struck, history=history, trial=trial)
