@@ -37,8 +37,6 @@ from pierimpact.pier.equivalent import damping_coefficient
 
 Real: TypeAlias = Any  # a float, or an array
 Values: TypeAlias = dict[str, Real]
-#: Resonance term and amplification S of β, μ, e and ζ.
-Spectrum: TypeAlias = Callable[[Real, Real, Real, Real], tuple[Real, Real]]
 
 # The coefficients of the unified spectrum, fitted by `study`, and of the rule for the vibration
 # that is left when the cargo arrives, chosen on its cases.

@@ -70,14 +70,6 @@ def inline(text: str) -> Inline:
     return tuple(run) if len(run) != 1 else run[0]
 
 
-def in_a_sentence(words: Inline) -> Inline:
-    """Return words that begin with a capital as they read within a sentence."""
-    first, *others = words if isinstance(words, tuple) else (words,)
-    if isinstance(first, str) and not first.startswith("Poisson"):
-        first = first[:1].lower() + first[1:]
-    return (first, *others) if others else first
-
-
 def tex_length(source: str) -> int:
     """Return about how many characters wide a formula is."""
     plain = re.sub(r"\\(text|mathrm|operatorname)\{([^}]*)\}", r"\2", source)
