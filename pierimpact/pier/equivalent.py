@@ -84,6 +84,11 @@ class EquivalentPier:
         return cls(mass=mass, stiffness=stiffness, damping_ratio=damping_ratio)
 
     @property
+    def values(self) -> dict[str, float]:
+        """Stiffness, mass and damping ratio with what follows from them, by symbol."""
+        return vibration(kp=self.stiffness, mp=self.mass, zeta=self.damping_ratio)
+
+    @property
     def circular_frequency(self) -> float:
         """Undamped circular frequency ω_p = √(k_p/m_p) [rad/s]."""
         return float(sqrt(self.stiffness / self.mass))

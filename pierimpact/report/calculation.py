@@ -2,9 +2,12 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
+from pierimpact.collision.averages import AverageForce, largest_average_force
 from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.simulate import simulate
+from pierimpact.design.codes import CodeForce, code_forces
 from pierimpact.design.reaction import (
     LOW_IMPACT_HEIGHT,
     DesignReaction,
@@ -16,6 +19,17 @@ from pierimpact.files.case import Case
 from pierimpact.pier.column import StruckColumn
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.pier.member_forces import MemberForces
+
+#: Windows of the moving averages that crash tests report [s].
+WINDOWS = (0.010, 0.025)
+
+
+class CodeEffect(NamedTuple):
+    """What the force of a clause does to the column."""
+
+    code: CodeForce
+    height: float  #: of the clause, or else that of this calculation [m]
+    member_forces: MemberForces | None  #: None where the force acts above the column
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,6 +103,23 @@ class Calculation:
     def member_forces(self) -> MemberForces:
         """Member forces under the design force as a static force."""
         return self.struck.member_forces(self.design_force)
+
+    @cached_property
+    def average_forces(self) -> dict[float, AverageForce | None]:
+        """The largest moving averages by window [s]; None where the collision is over sooner."""
+        end = self.history.time[-1]
+        return {w: largest_average_force(self.history, w) if w <= end else None for w in WINDOWS}
+
+    @cached_property
+    def code_effects(self) -> list[CodeEffect]:
+        """The forces of codes along the travel, each on this column."""
+        column, effects = self.case.column, []
+        for code in code_forces(self.case.inputs.speed, self.case.truck.mass):
+            height = code.height.value if code.height else self.struck.impact_height
+            below = height < column.height
+            forces = column.struck_at(height).member_forces(code.along.value) if below else None
+            effects.append(CodeEffect(code, height, forces))
+        return effects
 
     @property
     def utilisations(self) -> dict[str, float]:

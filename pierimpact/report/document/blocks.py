@@ -47,41 +47,21 @@ def for_html(environment: Environment) -> Environment:
 
 @dataclass(frozen=True, kw_only=True)
 class TitleBlock(Block):
-    """The head of the sheet; its entries also run in the header and footer of every page.
-
-    Parameters
-    ----------
-    title, subtitle : str
-        Title, and the line below it.
-    entries : mapping of str to str
-        Project, element and the like, by their labels.
-    date : str
-        Date of the sheet, as 2026-01-31.
-    paper : {"a4", "us-letter"}
-        Paper of the PDF.
-    landscape : bool, optional
-        Whether the sheet is wider than it is high.
-    """
+    """The head of the sheet; its entries also run in the header and footer of every page."""
 
     title: str
-    subtitle: str
-    entries: dict[str, str]
-    date: str
-    paper: str
-    landscape: bool = False
+    subtitle: str  #: line below the title
+    entries: dict[str, str]  #: project, element and the like, by their labels
+    date: str  #: date of the sheet, as 2026-01-31
+    paper: str  #: of the PDF, "a4" or "us-letter"
+    landscape: bool = False  #: whether the sheet is wider than it is high
 
 
 @dataclass(frozen=True, kw_only=True)
 class Headline(Block):
-    """The results in large type.
+    """The results in large type."""
 
-    Parameters
-    ----------
-    results : sequence of (str, Printed, str)
-        Label, value and remark of each.
-    """
-
-    results: Sequence[tuple[str, Printed, str]]
+    results: Sequence[tuple[str, Printed, str]]  #: label, value and remark of each
 
 
 @dataclass(frozen=True)
@@ -98,41 +78,22 @@ class Contents(Block):
 
 @dataclass(frozen=True)
 class Notes(Block):
-    """Remarks in small type, a list.
+    """Remarks in small type, a list."""
 
-    Parameters
-    ----------
-    notes : sequence of str or Tex or tuple
-        The remarks.
-    """
-
-    notes: Sequence[Inline]
+    notes: Sequence[Inline]  #: the remarks
 
 
 @dataclass(frozen=True)
 class Nomenclature(Block):
-    """Symbols, what they stand for and where they are introduced.
+    """Symbols, what they stand for and where they are introduced."""
 
-    Parameters
-    ----------
-    entries : sequence of (Tex, str or Tex or tuple, Ref)
-        Symbol, meaning, and the equation or table that introduces it.
-    """
-
+    #: Symbol, meaning, and the equation or table that introduces it.
     entries: Sequence[tuple[Tex, Inline, Ref]]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Notice(Block):
-    """A remark that must not be overlooked.
+    """A remark that must not be overlooked."""
 
-    Parameters
-    ----------
-    heading : str
-        One or two words.
-    body : sequence of str or Tex or tuple
-        Its paragraphs.
-    """
-
-    heading: str
-    body: Sequence[Inline]
+    heading: str  #: one or two words
+    body: Sequence[Inline]  #: its paragraphs

@@ -16,21 +16,11 @@ CONTINUED = r"\qquad"
 
 @dataclass(frozen=True, kw_only=True)
 class Column(Part):
-    """A column of a table.
-
-    Parameters
-    ----------
-    heading : str or Tex or tuple
-        Its heading.
-    align : {"left", "decimal"}, optional
-        Alignment; "decimal" has numbers with their decimal points in line.
-    wide : bool, optional
-        Whether it takes the width that the other columns leave.
-    """
+    """A column of a table."""
 
     heading: Inline
-    align: str = "left"
-    wide: bool = False
+    align: str = "left"  #: or "decimal", with decimal points in line
+    wide: bool = False  #: whether it takes the width that the other columns leave
 
 
 def decimal(heading: Inline) -> Column:
@@ -50,30 +40,14 @@ def columns(*headings: Inline | Column) -> list[Column]:
 
 @dataclass(frozen=True, kw_only=True)
 class Table(Block):
-    """A table with a caption above it.
+    """A table with a caption above it."""
 
-    Parameters
-    ----------
-    label : str
-        Anchor that text can refer to, such as "tab-inputs".
-    caption : str or Tex or tuple
-        Caption.
-    columns : sequence of Column
-        Its columns.
-    rows : sequence of sequences of str or Tex or tuple
-        Its rows; the first cell of a row is its heading.
-    strong : sequence of int, optional
-        Indices of the rows in bold.
-    centred : bool, optional
-        Whether cells are centred vertically, for tall formulas.
-    """
-
-    label: str
+    label: str  #: anchor that text can refer to, such as "tab-inputs"
     caption: Inline
     columns: Sequence[Column]
-    rows: Sequence[Sequence[Inline]]
-    strong: Sequence[int] = ()
-    centred: bool = False
+    rows: Sequence[Sequence[Inline]]  #: its rows; the first cell of a row is its heading
+    strong: Sequence[int] = ()  #: indices of the rows in bold
+    centred: bool = False  #: whether cells are centred vertically, for tall formulas
 
     def data(self) -> dict[str, Any]:
         """Return the data, with the numbers of decimal columns padded to equal decimals."""
@@ -88,27 +62,13 @@ class Table(Block):
 
 @dataclass(frozen=True, kw_only=True)
 class Equation(Part):
-    """A numbered step: symbol = formula = substitution = result.
+    """A numbered step: symbol = formula = substitution = result."""
 
-    Parameters
-    ----------
-    label : str
-        Anchor that text can refer to, such as "eq-stiffness".
-    name : str or Tex or tuple
-        Name of the calculated quantity.
-    symbol : str
-        Left-hand side, in LaTeX.
-    lines : sequence of str
-        Right-hand sides in LaTeX, one below the other.
-    source : str or Tex or tuple, optional
-        Where the formula is from.
-    """
-
-    label: str
-    name: Inline
-    symbol: str
-    lines: Sequence[str]
-    source: Inline = ""
+    label: str  #: anchor that text can refer to, such as "eq-stiffness"
+    name: Inline  #: name of the calculated quantity
+    symbol: str  #: left-hand side, in LaTeX
+    lines: Sequence[str]  #: right-hand sides in LaTeX, one below the other
+    source: Inline = ""  #: where the formula is from
 
     def data(self) -> dict[str, Any]:
         """Return the data, with the step as one formula, and whether it needs the page's width.
@@ -126,36 +86,18 @@ class Equation(Part):
 
 @dataclass(frozen=True)
 class Steps(Block):
-    """Numbered equations, one below the other.
+    """Numbered equations, one below the other."""
 
-    Parameters
-    ----------
-    equations : sequence of Equation
-        The steps, in the order of the calculation.
-    """
-
-    equations: Sequence[Equation]
+    equations: Sequence[Equation]  #: the steps, in the order of the calculation
 
 
 @dataclass(frozen=True, kw_only=True)
 class Figure(Block):
-    """A drawing with a caption below it.
+    """A drawing with a caption below it."""
 
-    Parameters
-    ----------
-    label : str
-        Anchor that text can refer to, such as "fig-history".
-    caption : str or Tex or tuple
-        Caption.
-    alt : str
-        Description for readers who cannot see it.
-    svg : str
-        The drawing.
-    """
-
-    label: str
+    label: str  #: anchor that text can refer to, such as "fig-history"
     caption: Inline
-    alt: str
+    alt: str  #: description for readers who cannot see it
     svg: str
 
 

@@ -1,10 +1,8 @@
 """The design reaction beside the equivalent static forces of codes."""
 
-from functools import cached_property
-
-from pierimpact.design.codes import CodeForce, Sourced, code_forces
+from pierimpact.design.codes import CodeForce, Sourced
+from pierimpact.pier.member_forces import MemberForces
 from pierimpact.report.document.blocks import Block, Notes
-from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.units import rounded
@@ -14,10 +12,6 @@ _UNKNOWN = "—"
 
 class Codes(Section):
     """The comparison with codes."""
-
-    @cached_property
-    def _codes(self) -> tuple[CodeForce, ...]:
-        return code_forces(self.case.inputs.speed, self.case.truck.mass)
 
     def forces(self) -> Block:
         """Return edition, clause, forces and height of each clause, and how sure they are."""
@@ -45,7 +39,7 @@ class Codes(Section):
                     self._sourced(code.height, "length"),
                     _status(code),
                 ]
-                for code in self._codes
+                for code, *_ in self.calculation.code_effects
             ],
         )
 
@@ -54,13 +48,24 @@ class Codes(Section):
 
     def effects(self) -> Block:
         """Return base shear and largest moment under each force, and the design's over them."""
-        used, own = self.calculation.struck.impact_height, self.calculation.design_force
+        result = self.calculation
         force, length, moment = (self.unit(kind) for kind in ("force", "length", "moment"))
-        this, _, *effects = self._effects("This calculation", own, used, "")
-        rows = [[this, self.number(own, "force"), *effects]]
-        for code in self._codes:
-            height, mark = (code.height.value, "") if code.height else (used, "*")
-            rows.append(self._effects(code.code, code.along.value, height, mark))
+        own = [
+            self.number(result.design_force, "force"),
+            self.number(result.struck.impact_height, "length", given=True),
+        ]
+        rows = [["This calculation", *own, *self._effects(result.member_forces)]]
+        for code, height, forces in result.code_effects:
+            mark = "" if code.height else "*"
+            cells = [
+                self.number(code.along.value, "force", given=True),
+                self.number(height, "length", given=True) + mark,
+            ]
+            if forces is None:
+                ratio = rounded(result.design_force / code.along.value, 3)
+                rows.append([code.code, *cells, "above the column", "", ratio, "", ""])
+            else:
+                rows.append([code.code, *cells, *self._effects(forces)])
         return Table(
             label="tab-effects",
             caption="The forces along the travel on this column, each at its own height or, marked "
@@ -80,24 +85,14 @@ class Codes(Section):
             strong=[0],
         )
 
-    def _effects(self, name: str, force: float, height: float, mark: str) -> list[Inline]:
-        """Return the row of a force."""
-        own, column = self.calculation.member_forces, self.case.column
-        cells: list[Inline] = [
-            name,
-            self.number(force, "force", given=True),
-            self.number(height, "length", given=True) + mark,
-        ]
-        ratio = rounded(self.calculation.design_force / force, 3)
-        if height >= column.height:
-            return [*cells, "above the column", "", ratio, "", ""]
-        forces = column.struck_at(height).member_forces(force)
+    def _effects(self, forces: MemberForces) -> list[str]:
+        """Return base shear and largest moment, and this calculation over force, shear, moment."""
+        own = self.calculation.member_forces
         shear, moment = abs(forces.base_force), abs(forces.largest_moment.value)
         return [
-            *cells,
             self.number(shear, "force"),
             self.number(moment, "moment"),
-            ratio,
+            rounded(own.reaction / forces.reaction, 3),
             rounded(abs(own.base_force) / shear, 3) if shear else _UNKNOWN,
             rounded(abs(own.largest_moment.value) / moment, 3),
         ]
@@ -105,7 +100,7 @@ class Codes(Section):
     def notes(self) -> Block:
         """Return what else is known of the clauses."""
         codes_by_note: dict[str, list[str]] = {}
-        for code in self._codes:
+        for code, *_ in self.calculation.code_effects:
             note = code.note
             if code.stiffness is not None:
                 stiffness = self.shown(code.stiffness.value, "stiffness", given=True)

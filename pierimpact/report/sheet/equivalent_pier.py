@@ -79,7 +79,7 @@ class EquivalentPierSteps(Section):
 
     def section(self) -> Steps:
         """Return area, rigidities and mass per length of the column."""
-        writer = self._writer(self._values)
+        writer = self._writer()
         circular = self.case.column.section.calculation is circle
         kappa = f"κ = {'0.9 of a circle' if circular else '5/6 of a rectangle'}"
         equations = [
@@ -96,7 +96,7 @@ class EquivalentPierSteps(Section):
         modulus, strength = (unit_size(kind, self.system) for kind in ("modulus", "strength"))
         factor = f"{concrete_modulus(strength) / modulus:.6g}"
         unit, one = self.unit("modulus"), rf"(1\ \text{{{self.unit('strength')}}})"
-        writer = self._writer(self._values)
+        writer = self._writer()
         in_mpa = "" if self.system == "SI" else ", there 4700 with both in MPa"
 
         def formula(value: str, times: str) -> str:
@@ -191,34 +191,26 @@ class EquivalentPierSteps(Section):
 
     def mass(self) -> Steps:
         """Return equivalent mass, frequency and damping."""
-        found = vibration(**{name: self._values[name] for name in vibration.given})
-        writer = self._writer(found | self._values, quantities={"kp": "mass stiffness"})
-        steps = [*equivalent_mass.steps(self._values, equivalent_mass.names)]
-        steps += vibration.steps(found, vibration.names)
+        writer = self._writer(quantities={"kp": "mass stiffness"})
+        steps = equivalent_mass.steps(self._values, equivalent_mass.names)
+        steps += vibration.steps(self._values, vibration.names)
         return Steps([*self._unit_force[3].equations, *map(writer.equation, steps)])
 
     @cached_property
     def _values(self) -> dict[str, float]:
         """The values of the column and the pier, by symbol."""
-        result = self.calculation
-        return result.struck.values | {
-            "zeta": result.pier.damping_ratio,
-            "fc": self.case.inputs.concrete_strength or 0.0,
-        }
+        strength = {"fc": self.case.inputs.concrete_strength or 0.0}
+        return self.calculation.struck.values | self.calculation.pier.values | strength
 
     def _writer(
-        self,
-        values: Mapping[str, float],
-        *,
-        units: bool = True,
-        quantities: Mapping[str, str] | None = None,
+        self, *, units: bool = True, quantities: Mapping[str, str] | None = None
     ) -> StepWriter:
-        return StepWriter(values, self.system, _GIVEN, units=units, quantities=quantities)
+        return StepWriter(self._values, self.system, _GIVEN, units=units, quantities=quantities)
 
     @cached_property
     def _unit_force(self) -> list[Steps]:
         """The steps under the unit force: forces, stiffness, shape, and integrals of its square."""
-        column, writer = self.case.column, self._writer(self._values, units=False)
+        column, writer = self.case.column, self._writer(units=False)
         calculation = BY_ENDS[column.base, column.top]
         steps = calculation.steps(self._values, calculation.names)
         return [

@@ -1,7 +1,5 @@
 """The collision by the full model: what it solves, its history and peaks, and the check by it."""
 
-from pierimpact.checks import InputError
-from pierimpact.collision.averages import largest_average_force
 from pierimpact.collision.history import Peak
 from pierimpact.plots.figures import draw_history
 from pierimpact.report.document.blocks import Block
@@ -10,9 +8,6 @@ from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, 
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
-
-#: Windows of the moving averages that crash tests report [s].
-WINDOWS = (0.010, 0.025)
 
 
 class FullModel(Section):
@@ -123,15 +118,15 @@ class FullModel(Section):
         """Return the largest contact force and its largest moving averages."""
         history = self.calculation.history
         largest = int(history.contact_force.argmax())
-        found: list[tuple[str, float | None, float]] = [
-            ("At one instant", float(history.contact_force[largest]), float(history.time[largest]))
-        ]
-        for window in WINDOWS:
+        force, time = float(history.contact_force[largest]), float(history.time[largest])
+        rows = [["At one instant", self.number(force, "force"), self.number(time, "time")]]
+        for window, average in self.calculation.average_forces.items():
             name = f"Over {self.shown(window, 'time', given=True)}"
-            try:
-                found.append((name, *largest_average_force(history, window)))
-            except InputError:  # the collision is over sooner
-                found.append((name, None, 0.0))
+            if average is None:  # the collision is over sooner
+                rows.append([name, "none", ""])
+            else:
+                start = self.number(average.start, "time")
+                rows.append([name, self.number(average.force, "force"), start])
         return Table(
             label="tab-averages",
             caption="Largest contact force between truck and pier by the full model, and its "
@@ -142,10 +137,7 @@ class FullModel(Section):
                 decimal(f"Contact force [{self.unit('force')}]"),
                 decimal(f"From [{self.unit('time')}]"),
             ),
-            rows=[
-                [name, self.number(force, "force"), "" if force is None else self.number(t, "time")]
-                for name, force, t in found
-            ],
+            rows=rows,
         )
 
     def check(self) -> Block:
