@@ -11,7 +11,7 @@ from pierimpact.teaching.launch import DEFAULT_FOLDER, TeachError, open_notebook
 _REPORT = """\
 Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
 the case file. Where there are more cases than one, summary.html, summary.pdf and summary.csv have
-a row for each. A case that fails stops none of the others; it is reported at the end.
+a row for each. If a case fails, the others are still calculated; it is reported at the end.
 """
 _EXIT_CODES = """\
 Exit code: 0 if every case has its report; 2 if all failures are bad input; 1 if anything else
@@ -52,7 +52,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="CASE.yaml",
         nargs="+",
         help="case file, or a folder, which stands for all *.yaml and *.yml in it, sorted by name; "
-        "its subfolders are left alone",
+        "subfolders are not searched",
     )
     report.add_argument(
         "--output", metavar="DIR", default="reports", help="folder to write to (default: reports)"
@@ -69,7 +69,7 @@ def _parser() -> argparse.ArgumentParser:
         "--folder",
         metavar="DIR",
         default=DEFAULT_FOLDER,
-        help="folder of your copies; files already in it are kept (default: %(default)s)",
+        help="folder for your copies; files already in it are kept (default: %(default)s)",
     )
     teach.add_argument(
         "--no-browser", dest="browser", action="store_false", help="do not open a browser"

@@ -55,123 +55,123 @@ GA | \kappa GA | shear rigidity | shear rigidity
 mbar | \bar m | mass per length | mass per length
 y | (H - z_\mathrm{n}) | length | height of the top above the impact
 delta10 | \delta_{10} | flexibility | deflection of the released end under the unit force at the impact
-delta11 | \delta_{11} | flexibility | deflection of the released end under a unit force of its own
-Rt | R_\mathrm{t} | share | force at the top
-Rb | R_\mathrm{b} | share | force at the base
-Mt | M_\mathrm{t} | length | moment at the top
-Mb | M_\mathrm{b} | length | moment at the base
-Mn | M_\mathrm{n} | length | moment at the impact
+delta11 | \delta_{11} | flexibility | deflection of the released end under a unit force at that end
+Rt | R_\mathrm{t} | share | support force at the top under the unit force
+Rb | R_\mathrm{b} | share | support force at the base under the unit force
+Mt | M_\mathrm{t} | length | moment at the top under the unit force
+Mb | M_\mathrm{b} | length | moment at the base under the unit force
+Mn | M_\mathrm{n} | length | moment at the impact under the unit force
 xfb | x_\mathrm{f,b} | flexibility | flexural deflection below the impact
 xft | x_\mathrm{f,t} | flexibility | flexural deflection above the impact
 xs | x_\mathrm{s} | flexibility | shear deflection
-xn | x(z_\mathrm{n}) | flexibility | deflection at the impact
+xn | x(z_\mathrm{n}) | flexibility | deflection at the impact under the unit force
 kp | k_\mathrm{p} | stiffness | stiffness of the pier
-sb | s_\mathrm{b} | share | relative distance of the impact from the base
+sb | s_\mathrm{b} | share | distance of the impact from the base, over the height
 cb0 | c_\mathrm{b0} | share | shape below the impact, constant
 cb1 | c_\mathrm{b1} | share | shape below the impact, coefficient of $s$
 cb2 | c_\mathrm{b2} | share | shape below the impact, coefficient of $s^2$
 cb3 | c_\mathrm{b3} | share | shape below the impact, coefficient of $s^3$
-phi2b | \int_0^{z_\mathrm{n}} \varphi^2 \, \mathrm{d}z | length | integral below the impact
-st | s_\mathrm{t} | share | relative distance of the impact from the top
+phi2b | \int_0^{z_\mathrm{n}} \varphi^2 \, \mathrm{d}z | length | integral of $\varphi^2$ below the impact
+st | s_\mathrm{t} | share | distance of the impact from the top, over the height
 ct0 | c_\mathrm{t0} | share | shape above the impact, constant
 ct1 | c_\mathrm{t1} | share | shape above the impact, coefficient of $s$
 ct2 | c_\mathrm{t2} | share | shape above the impact, coefficient of $s^2$
 ct3 | c_\mathrm{t3} | share | shape above the impact, coefficient of $s^3$
-phi2t | \int_{z_\mathrm{n}}^H \varphi^2 \, \mathrm{d}z | length | integral above the impact
-phi2 | \int_0^H \varphi^2 \, \mathrm{d}z | length | integral over the column
+phi2t | \int_{z_\mathrm{n}}^H \varphi^2 \, \mathrm{d}z | length | integral of $\varphi^2$ above the impact
+phi2 | \int_0^H \varphi^2 \, \mathrm{d}z | length | integral of $\varphi^2$ over the column
 mp | m_\mathrm{p} | mass | equivalent mass of the pier
-fp | f_\mathrm{p} | frequency | frequency of the pier
+fp | f_\mathrm{p} | frequency | natural frequency of the pier
 cp | c_\mathrm{p} | damping | damping coefficient of the pier
 
 # The design procedure: pier and plateau forces
 on_pier | \text{friction acts on the pier} |  | friction on the pier
-omega | \omega_\mathrm{p} | circular frequency | circular frequency of the pier
+omega | \omega_\mathrm{p} | circular frequency | natural circular frequency of the pier
 omega_d | \omega_\mathrm{d} | circular frequency | damped circular frequency of the pier
-Q | Q | force | body plateau force on the pier
+Q | Q | force | force of the body on the pier, its spring on the plateau
 Fpl | F_\mathrm{pl} | force | total plateau force on the pier
 Rpl | R_\mathrm{pl} | force | plateau peak, the largest reaction to the plateaus alone
 a1 | a_1 | acceleration | deceleration of the engine on its plateau
-Fb | F_\mathrm{b} | force | body resistance: the force that slows the body
+Fb | F_\mathrm{b} | force | retarding force on the body
 a2 | a_2 | acceleration | deceleration of the body on its plateau
 
 # Engine
 t1_0 | t_1' | time | time of engine contact if the pier stood still
-x1_0 | x_1' | length | displacement of the pier at $t_1'$
+x1_0 | x_{\mathrm{p}1}' | length | displacement of the pier at $t_1'$
 t1 | t_1 | time | time of engine contact
-x1 | x_1 | length | displacement of the pier at $t_1$
-dx1 | \dot x_1 | speed | velocity of the pier at $t_1$
+x1 | x_{\mathrm{p}1} | length | displacement of the pier at $t_1$
+dx1 | \dot x_{\mathrm{p}1} | speed | velocity of the pier at $t_1$
 v1 | v_1 | speed | contact speed of the engine; zero if it stops before
-beta1 | \beta_1 | share | frequency ratio, engine
-mu1 | \mu_1 | share | mass ratio, engine
-e1 | e_1 | share | restitution, engine
+beta1 | \beta_1 | share | frequency ratio of pier to engine
+mu1 | \mu_1 | share | mass ratio of engine to pier
+e1 | e_1 | share | coefficient of restitution, engine
 h1 | h_1 | share | resonance term of the spectrum, engine
-S1 | S_1 | share | amplification, engine
+S1 | S_1 | share | amplification factor, engine
 u1 | u_1 | speed | relative speed of engine and pier at contact
-Rv1 | R_{\mathrm{v}1} | force | amplitude of the pier’s free vibration after the engine’s impact, as a reaction
-R0 | R_0 | force | plateau peak passed before engine contact
-R1_0 | R_1' | force | engine reaction if the cargo stays away
+Rv1 | R_{\mathrm{v}1} | force | peak reaction above $Q$ after the engine’s impact
+R0 | R_0 | force | plateau peak, if reached before engine contact
+R1_0 | R_1' | force | engine reaction without cargo contact
 R1 | R_1 | force | engine reaction
 
 # Free vibration of the pier
 mr | m_\mathrm{r} | mass | reduced mass of engine and pier
 omega_r | \omega_\mathrm{r} | circular frequency | circular frequency of the impact
-tbar | \bar t | time | centroid of the impact after contact
-sigma_J | \sigma_\mathrm{J} | time | spread of the impact about its centroid
+tbar | \bar t | time | time from contact to the centroid of the impact force
+sigma_J | \sigma_\mathrm{J} | time | standard deviation in time of the impact force about its centroid
 J | J | impulse | effective impulse of the impact on the pier
 tJ | t_\mathrm{J} | time | time from which the pier vibrates freely
-xJ | x_\mathrm{J} | length | displacement of the pier at $t_\mathrm{J}$, from its rest under $Q$
-dxJ | \dot x_\mathrm{J} | speed | velocity of the pier at $t_\mathrm{J}$, after the impact
+xJ | x_\mathrm{pJ} | length | displacement of the pier at $t_\mathrm{J}$, from its rest under $Q$
+dxJ | \dot x_\mathrm{pJ} | speed | velocity of the pier at $t_\mathrm{J}$, after the impact
 
 # Arrival of the cargo
 t2_0 | t_2' | time | time of cargo contact if the pier stood still
-x2_0 | x_2' | length | displacement of the pier at $t_2'$
+x2_0 | x_{\mathrm{p}2}' | length | displacement of the pier at $t_2'$
 t2 | t_2 | time | time of cargo contact
-x2 | x_2 | length | displacement of the pier at $t_2$
-dx2 | \dot x_2 | speed | velocity of the pier at $t_2$
+x2 | x_{\mathrm{p}2} | length | displacement of the pier at $t_2$
+dx2 | \dot x_{\mathrm{p}2} | speed | velocity of the pier at $t_2$
 v2 | v_2 | speed | contact speed of the cargo; zero if it stops before
-tc | t_\mathrm{c} | time | time of the maximum that follows the engine’s impact
+tc | t_\mathrm{c} | time | time of the first maximum after the engine’s impact
 
 # Cargo
-beta2 | \beta_2 | share | frequency ratio, cargo
-mu2 | \mu_2 | share | mass ratio, cargo
-e2 | e_2 | share | restitution, cargo
+beta2 | \beta_2 | share | frequency ratio of pier to cargo
+mu2 | \mu_2 | share | mass ratio of cargo to pier
+e2 | e_2 | share | coefficient of restitution, cargo
 h2 | h_2 | share | resonance term of the spectrum, cargo
-S2 | S_2 | share | amplification, cargo
+S2 | S_2 | share | amplification factor, cargo
 F2 | \hat F_2 | force | rise of the cargo’s force above its plateau on a rigid pier
-Rv2 | R_{\mathrm{v}2} | force | amplitude of the free vibration left when the cargo arrives, as a reaction
-eta | \eta | share | share of this amplitude that counts
+Rv2 | R_{\mathrm{v}2} | force | the same reaction, decayed until the cargo arrives
+eta | \eta | share | share of $R_{\mathrm{v}2}$ added to the cargo reaction
 R2 | R_2 | force | cargo reaction
-x0 | x_0 | length | displacement at which pier and cargo in contact would rest
-gamma | \gamma | share | difference in frequency of pier and cargo
-lam | \lambda | share | root of the modes
+x0 | x_0 | length | static part of the displacement in contact with the cargo
+gamma | \gamma | share | auxiliary value of the eigenvalue equation of pier and cargo
+lam | \lambda | share | root of the eigenvalue equation
 Lam | \Lambda | share | sum of $\lambda$ and $\gamma$
 omega_s | \omega_\mathrm{s} | circular frequency | slow mode: circular frequency
-psi_s | \psi_\mathrm{s} | share | slow mode: displacement of the body over the pier’s
+psi_s | \psi_\mathrm{s} | share | slow mode: ratio of the body’s to the pier’s displacement
 sigma_s | \sigma_\mathrm{s} | decay rate | slow mode: decay rate
-a_s | a_\mathrm{s} | length | slow mode: cosine part
-b_s | b_\mathrm{s} | length | slow mode: sine part
+a_s | a_\mathrm{s} | length | slow mode: cosine amplitude
+b_s | b_\mathrm{s} | length | slow mode: sine amplitude
 X_s | X_\mathrm{s} | length | slow mode: amplitude
 phi_s | \varphi_\mathrm{s} | angle | slow mode: phase
 theta_s | \theta_\mathrm{s} | angle | slow mode: angle of the first maximum, from 0 to 2π
 omega_f | \omega_\mathrm{f} | circular frequency | fast mode: circular frequency
-psi_f | \psi_\mathrm{f} | share | fast mode: displacement of the body over the pier’s
+psi_f | \psi_\mathrm{f} | share | fast mode: ratio of the body’s to the pier’s displacement
 sigma_f | \sigma_\mathrm{f} | decay rate | fast mode: decay rate
-a_f | a_\mathrm{f} | length | fast mode: cosine part
-b_f | b_\mathrm{f} | length | fast mode: sine part
+a_f | a_\mathrm{f} | length | fast mode: cosine amplitude
+b_f | b_\mathrm{f} | length | fast mode: sine amplitude
 X_f | X_\mathrm{f} | length | fast mode: amplitude
 phi_f | \varphi_\mathrm{f} | angle | fast mode: phase
 theta_f | \theta_\mathrm{f} | angle | fast mode: angle of the first maximum, from 0 to 2π
-tu | t_\mathrm{u} | time | time after contact at which the slow mode is largest and the spring turns to unloading
-w | w | share | weight of the fast mode in the maximum of both modes
-n | n | share | whole periods of the fast mode before $t_\mathrm{u}$
-ta | t_\mathrm{a} | time | time after contact of the last maximum of both modes before $t_\mathrm{u}$
-tb | t_\mathrm{b} | time | time after contact of the first maximum of both modes after $t_\mathrm{u}$
-xu | x_\mathrm{u} | length | displacement of the pier at $t_\mathrm{u}$
-xa | x_\mathrm{a} | length | displacement of the pier at $t_\mathrm{a}$
-xb | x_\mathrm{b} | length | displacement of the pier at $t_\mathrm{b}$; the spring unloads on $k_{\mathrm{u}2}$
+tu | t_\mathrm{u} | time | time from cargo contact to the slow mode’s maximum, taken as the start of unloading
+w | w | share | weight of the fast mode in the time of the combined maximum
+n | n | share | complete periods of the fast mode before $t_\mathrm{u}$
+ta | t_\mathrm{a} | time | time from cargo contact to the last combined maximum before $t_\mathrm{u}$
+tb | t_\mathrm{b} | time | time from cargo contact to the first combined maximum after $t_\mathrm{u}$
+xu | x_\mathrm{pu} | length | displacement of the pier at $t_\mathrm{u}$
+xa | x_\mathrm{pa} | length | displacement of the pier at $t_\mathrm{a}$
+xb | x_\mathrm{pb} | length | displacement of the pier at $t_\mathrm{b}$; the spring unloads on $k_{\mathrm{u}2}$
 
 # Results
-R | R | force | design reaction
+R | R_\mathrm{d} | force | design reaction
 R_D | R_\mathrm{D} | force | reaction of the design procedure
 R_M | R_\mathrm{M} | force | governing peak of the full model
 V_max | V_\mathrm{max} | force | largest shear
@@ -183,6 +183,9 @@ E_i | E_i | force | envelope of a spring’s force
 F_i | F_i | force | force of a spring
 F_f | F_\mathrm{f} | force | friction on the body
 height | z | length | height above the base
+x_i | x_i | length | displacement of engine (i = 1) or body (i = 2)
+x_p | x_\mathrm{p} | length | displacement of the pier at the impact height
+R_t | R | force | reaction $k_\mathrm{p} x_\mathrm{p}$
 s | s | share | distance from the base or from the top, over the height of the column
 phi | \varphi | ordinate | shape function
 """

@@ -293,7 +293,7 @@ def calculated(sheet):
             checked += 1
         values[symbol] = shown, rounding
         if label == "eq-G":  # the only value without a place of its own
-            kappa = re.search(r"κ = (0\.9|5/6) of", sheet.page)[1]
+            kappa = re.search(r"κ = (0\.9|5/6), solid", sheet.page)[1]
             values[("κ",)] = {"0.9": 0.9, "5/6": 5.0 / 6.0}[kappa], 0.0
     assert checked > 60
     return sheet
@@ -395,8 +395,8 @@ def test_the_short_level(calculated):
 def test_member_forces_and_utilisations(calculated):
     (reaction, rounding), _ = reactions(calculated)
     names = {
-        "Force on the base": "R_b",
-        "Force on the top": "R_t",
+        "Support force at the base": "R_b",
+        "Support force at the top": "R_t",
         "Moment at the base": "M_b",
         "Moment at the impact": "M_n",
         "Moment at the top": "M_t",

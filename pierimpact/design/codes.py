@@ -56,9 +56,9 @@ def aashto_lrfd() -> CodeForce:
         clause="3.6.5",
         along=Sourced(600.0 * KIP, Certainty.CITED),
         height=Sourced(1.5, Certainty.CITED),
-        note="From two full-scale tests. Given in kip by the source paper, else converted. "
-        "The clause number is from memory, and that the force acts within 15° of the travel: "
-        "unverified.",
+        note="Based on two full-scale tests. Quoted in kip by the source paper; other units are "
+        "converted. The clause number is from memory, and that the force acts within 15° of the "
+        "travel: unverified.",
     )
 
 
@@ -70,8 +70,8 @@ def aashto_lrfd_former() -> CodeForce:
         clause="3.6.5",
         along=Sourced(400.0 * KIP, Certainty.CITED),
         height=Sourced(1.2, Certainty.CITED),
-        note="In use for nearly 20 years. Given in kip, else converted. The clause number is from "
-        "memory.",
+        note="In use for nearly 20 years. Quoted in kip; other units are converted. The clause "
+        "number is from memory.",
     )
 
 

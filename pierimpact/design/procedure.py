@@ -148,7 +148,7 @@ def plateau(m1, P1, m2, P2, cs, mp, kp, zeta, on_pier):
     omega_d = omega * sqrt(1 - zeta**2)
     Q = where(on_pier, P2 + cs, P2)
     Fpl = P1 + Q
-    Rpl = Fpl * (1 + exp(-pi * zeta * omega / omega_d))  # a suddenly applied force
+    Rpl = Fpl * (1 + exp(-pi * zeta * omega / omega_d))  # step force
     a1 = P1 / m1
     Fb = P2 + cs
     a2 = Fb / m2
@@ -229,7 +229,7 @@ def frequencies(beta2, mu2, omega):
     """
     gamma = (beta2**2 + mu2 - 1) / 2
     lam = sqrt(gamma**2 + mu2)
-    Lam = where(gamma > 0, lam + gamma, mu2 / (lam + abs(gamma)))  # without loss of figures
+    Lam = where(gamma > 0, lam + gamma, mu2 / (lam + abs(gamma)))  # written to avoid cancellation
     omega_s = omega / sqrt(1 + gamma + lam)
     psi_s = Lam / mu2
     omega_f = omega / beta2 * sqrt(1 + gamma + lam)
@@ -310,8 +310,8 @@ def long(
     # excites a fast pier less. Without contact the engine stops on its plateau, and pushes no more.
     mr = m1 / (1 + m1 / mp)
     omega_r = sqrt(k1 / mr)
-    tbar = 1 / omega_r * centroid(e1)  # a quarter of a sine up, and down in e times its time
-    sigma_J = sqrt(1 / omega_r**2 * second_moment(e1) - tbar**2)  # of the same
+    tbar = 1 / omega_r * centroid(e1)  # quarter sine up, quarter cosine down, e times as long
+    sigma_J = sqrt(1 / omega_r**2 * second_moment(e1) - tbar**2)  # of the same pulse
     J = where(v1 > 0, (1 + e1) * mr * u1 * exp(-(omega**2) * sigma_J**2 / 2), 0)
     tJ = where(v1 > 0, t1 + tbar, V / a1)
     xJ = step_x(Fpl, kp, omega, omega_d, zeta, tJ) - Q / kp

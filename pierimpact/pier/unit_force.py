@@ -41,21 +41,23 @@ def fixed_end(M, R, H, EI, GA, xn):
     """Return the coefficients of s², s³ and s beside a fixed end."""
     c2 = -M * H**2 / (2 * EI * xn)  # moment at the end
     c3 = -R * H**3 / (6 * EI * xn)  # force at the end
-    c1 = R * H / (GA * xn)  # shear at the end, which does not rotate
+    c1 = R * H / (GA * xn)  # shear strain at the fixed end
     return c2, c3, c1
 
 
 def pinned_end(R, s, H, EI, xn):
     """Return the coefficients of s³ and s beside a pinned end."""
     c3 = -R * H**3 / (6 * EI * xn)  # force at the end
-    c1 = (1 - c3 * s**3) / s  # 1 at the impact
+    c1 = (1 - c3 * s**3) / s  # φ = 1 at the impact
     return c3, c1
 
 
 def free_end(s, other_s, other_c2, other_c3):
     """Return the coefficient of s and the constant beside a free end."""
-    c1 = -2 * other_c2 * other_s - 3 * other_c3 * other_s**2  # tangent to the other part
-    c0 = 1 - c1 * s  # 1 at the impact
+    c1 = (
+        -2 * other_c2 * other_s - 3 * other_c3 * other_s**2
+    )  # rotation of the section continuous at the impact
+    c0 = 1 - c1 * s  # φ = 1 at the impact
     return c1, c0
 
 
@@ -89,8 +91,8 @@ def fixed_free(H, z, y, EI, GA):
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
     ct1, ct0 = free_end(st, sb, cb2, cb3)
-    phi2b = integral_cubic(H, sb, cb1, cb2, cb3)  # of the square of φ, exactly
-    phi2t = integral_straight(H, st, ct0, ct1)  # of the square of φ, exactly
+    phi2b = integral_cubic(H, sb, cb1, cb2, cb3)
+    phi2t = integral_straight(H, st, ct0, ct1)
     return locals()
 
 
@@ -103,8 +105,8 @@ def free_fixed(H, z, y, EI, GA):
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
     cb1, cb0 = free_end(sb, st, ct2, ct3)
-    phi2b = integral_straight(H, sb, cb0, cb1)  # of the square of φ, exactly
-    phi2t = integral_cubic(H, st, ct1, ct2, ct3)  # of the square of φ, exactly
+    phi2b = integral_straight(H, sb, cb0, cb1)
+    phi2t = integral_cubic(H, st, ct1, ct2, ct3)
     return locals()
 
 
@@ -119,8 +121,8 @@ def pinned_pinned(H, z, y, EI, GA):
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb3, cb1 = pinned_end(Rb, sb, H, EI, xn)
     ct3, ct1 = pinned_end(Rt, st, H, EI, xn)
-    phi2b = integral_odd(H, sb, cb1, cb3)  # of the square of φ, exactly
-    phi2t = integral_odd(H, st, ct1, ct3)  # of the square of φ, exactly
+    phi2b = integral_odd(H, sb, cb1, cb3)
+    phi2t = integral_odd(H, st, ct1, ct3)
     return locals()
 
 
@@ -129,14 +131,14 @@ def fixed_pinned(H, z, y, EI, GA):
     """A column propped at the top: the top is released, and brought back by its force."""
     delta10 = z**2 * (3 * H - z) / (6 * EI) + z / GA  # flexure and shear
     delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
-    Rt = delta10 / delta11  # the top stays in place
+    Rt = delta10 / delta11  # no displacement at the released end
     Mt = 0  # pinned top
     Rb, Mb, Mn = other_end(Rt, Mt, H, y, z)
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
     ct3, ct1 = pinned_end(Rt, st, H, EI, xn)
-    phi2b = integral_cubic(H, sb, cb1, cb2, cb3)  # of the square of φ, exactly
-    phi2t = integral_odd(H, st, ct1, ct3)  # of the square of φ, exactly
+    phi2b = integral_cubic(H, sb, cb1, cb2, cb3)
+    phi2t = integral_odd(H, st, ct1, ct3)
     return locals()
 
 
@@ -145,30 +147,32 @@ def pinned_fixed(H, z, y, EI, GA):
     """A column propped at the base: the base is released, and brought back by its force."""
     delta10 = y**2 * (2 * H + z) / (6 * EI) + y / GA  # flexure and shear
     delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
-    Rb = delta10 / delta11  # the base stays in place
+    Rb = delta10 / delta11  # no displacement at the released end
     Mb = 0  # pinned base
     Rt, Mt, Mn = other_end(Rb, Mb, H, z, y)
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb3, cb1 = pinned_end(Rb, sb, H, EI, xn)
     ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
-    phi2b = integral_odd(H, sb, cb1, cb3)  # of the square of φ, exactly
-    phi2t = integral_cubic(H, st, ct1, ct2, ct3)  # of the square of φ, exactly
+    phi2b = integral_odd(H, sb, cb1, cb3)
+    phi2t = integral_cubic(H, st, ct1, ct2, ct3)
     return locals()
 
 
 @Calculation
 def fixed_fixed(H, z, y, EI, GA):
     """Both ends fixed: the top may move but not rotate, and is brought back by its force."""
-    delta10 = z**2 * (3 * H - 2 * z) / (12 * EI) + z / GA  # flexure and shear; it cannot rotate
-    delta11 = H**3 / (12 * EI) + H / GA  # flexure and shear; it cannot rotate
-    Rt = delta10 / delta11  # the top stays in place
-    Mt = z**2 / (2 * H) - Rt * H / 2  # the top does not rotate
+    delta10 = (
+        z**2 * (3 * H - 2 * z) / (12 * EI) + z / GA
+    )  # flexure and shear; the released end does not rotate
+    delta11 = H**3 / (12 * EI) + H / GA  # flexure and shear; the released end does not rotate
+    Rt = delta10 / delta11  # no displacement at the released end
+    Mt = z**2 / (2 * H) - Rt * H / 2  # no rotation at the top
     Rb, Mb, Mn = other_end(Rt, Mt, H, y, z)
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
     ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
-    phi2b = integral_cubic(H, sb, cb1, cb2, cb3)  # of the square of φ, exactly
-    phi2t = integral_cubic(H, st, ct1, ct2, ct3)  # of the square of φ, exactly
+    phi2b = integral_cubic(H, sb, cb1, cb2, cb3)
+    phi2t = integral_cubic(H, st, ct1, ct2, ct3)
     return locals()
 
 

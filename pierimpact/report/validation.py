@@ -147,7 +147,7 @@ class Validation:
         """Return how near the closed spectrum is to the exact one, over the domain."""
         return _statistics(
             "tab-spectrum",
-            "Closed over exact amplification.",
+            "Closed-form over exact amplification factor.",
             "Body",
             {body.capitalize(): row for body, row in amplification_ratios(self._case).items()},
         )
@@ -175,14 +175,14 @@ class Validation:
         few = select(self._case, slice(0, _FEW))
         return _both_levels(
             "tab-trucks",
-            "Predicted over full-model governing reaction: one truck on the piers of the domain, "
-            "at its speeds.",
+            "Predicted over full-model governing reaction: one truck, with piers and speeds of the "
+            "domain.",
             "Truck and level",
             {f"{truck.name}, {truck.mass / 1e3:g} t": with_truck(few, truck) for truck in trucks},
         )
 
     def beyond(self) -> Block:
-        """Return the statistics of the governing reaction where one thing leaves the domain."""
+        """Return the statistics of the governing reaction with one parameter outside the domain."""
         few = select(self._case, slice(0, _FEW))
         random, size = np.random.default_rng(self.seed), len(few.speed)
         found = domain.values(few)
@@ -194,15 +194,15 @@ class Validation:
 
         return _both_levels(
             "tab-beyond",
-            "Predicted over full-model governing reaction where one thing leaves the domain.",
-            "What leaves it, and level",
+            "Predicted over full-model governing reaction with one parameter outside the domain.",
+            "Parameter and level",
             {
                 "Pier frequency 3–5 Hz": _pier(few, between(3.0, 5.0), damping),
                 "Damping 0–2 %": _pier(few, frequency, between(0.0, 0.02)),
                 "Damping 7–20 %": _pier(few, frequency, between(0.07, 0.2)),
                 "Speed 30–50 km/h": few._replace(speed=between(30.0, 50.0) / 3.6),
                 "Speed 110–160 km/h": few._replace(speed=between(110.0, 160.0) / 3.6),
-                "Cargo four times as near": few._replace(body=quarter),
+                "Body plateau length reduced to a quarter": few._replace(body=quarter),
             },
         )
 
@@ -226,7 +226,7 @@ def unified_spectrum(mass_ratios: Sequence[float], restitution: float, damping: 
 
 
 def routes(truck: Truck, speed: float, pier_mass: float) -> Block:
-    """Return engine and cargo reaction of a truck against pier frequency, by three routes."""
+    """Return engine and cargo reaction of a truck against pier frequency, by three methods."""
     engine, cargo = (
         spectrum(truck, speed, pier_mass, level="long")
         for spectrum in (engine_spectrum, cargo_spectrum)
@@ -239,7 +239,7 @@ def routes(truck: Truck, speed: float, pier_mass: float) -> Block:
     return Figure(
         label="fig-routes",
         caption=f"Spectra of {truck.name} at {3.6 * speed:.3g} km/h on piers of "
-        f"{pier_mass / 1e3:g} t, by three routes.",
+        f"{pier_mass / 1e3:g} t, by three methods.",
         alt="Engine and cargo reaction against pier frequency; highest by the full model: "
         + ", ".join(highest),
         svg=spectrum_figures.draw_routes(engine, cargo, "SI"),

@@ -79,8 +79,8 @@ class Animation:
         if engine is not None and t >= engine and frame.engine_force > 0.0:
             return "The engine block is in contact with the pier."
         if engine is not None and t >= engine:
-            return "The engine has rebounded; the body is still crushing, and the pier vibrates."
-        return "Sheet metal is crushing: two plateau forces push the pier."
+            return "The engine has rebounded; the body still presses on the pier, which vibrates."
+        return "Sheet metal is being crushed, before any hard contact."
 
 
 def _moments(scenario: Scenario) -> list[float]:

@@ -97,8 +97,9 @@ class DesignProcedure(Section):
         ]
         return Table(
             label="tab-short",
-            caption="The short level: a check from the same starting values. The plain numbers in "
-            "the resonance terms and in η are fitted to the full model.",
+            caption="The short level, from the same starting values; it shares the amplification "
+            "factors with the long level. The numbers in the resonance terms and in η are fitted "
+            "to the full model.",
             columns=columns(wide("Step"), "Equation", decimal("Value"), "Unit"),
             rows=rows,
             centred=True,

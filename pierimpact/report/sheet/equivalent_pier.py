@@ -70,7 +70,7 @@ class EquivalentPierSteps(Section):
         """Return which units values without units are in, and how masses and forces compare."""
         size = unit_size("stiffness", self.system) / unit_size("mass stiffness", self.system)
         return Paragraph(
-            f"Where values are put in without their units, lengths are in {self.unit('length')} "
+            f"Where values are inserted without units, lengths are in {self.unit('length')} "
             f"and forces in {self.unit('shear rigidity')}. Masses are in {self.unit('mass')}: "
             f"where they stand beside a stiffness, 1 {self.unit('stiffness')} is "
             f"{printed(size, 'share', 'SI', given=True)} {self.unit('mass stiffness')}. "
@@ -81,7 +81,9 @@ class EquivalentPierSteps(Section):
         """Return area, rigidities and mass per length of the column."""
         writer = self._writer()
         circular = self.case.column.section.calculation is circle
-        kappa = f"κ = {'0.9 of a circle' if circular else '5/6 of a rectangle'}"
+        kappa = (
+            f"κ = {'0.9, solid circular section' if circular else '5/6, solid rectangular section'}"
+        )
         equations = [
             writer.equation(step._replace(remark=kappa) if step.name == "GA" else step)
             for calculation in (self.case.column.section.calculation, rigidities)
@@ -97,7 +99,7 @@ class EquivalentPierSteps(Section):
         factor = f"{concrete_modulus(strength) / modulus:.6g}"
         unit, one = self.unit("modulus"), rf"(1\ \text{{{self.unit('strength')}}})"
         writer = self._writer()
-        in_mpa = "" if self.system == "SI" else ", there 4700 with both in MPa"
+        in_mpa = "" if self.system == "SI" else " (4700 with both in MPa)"
 
         def formula(value: str, times: str) -> str:
             return rf"{factor}\ \text{{{unit}}} {times} \sqrt{{{value} / {one}}}"
@@ -111,7 +113,8 @@ class EquivalentPierSteps(Section):
                 formula(SYMBOLS["fc"].latex, r"\,"),
                 f"{values} = {in_tex(writer.shown('E'))}",
             ],
-            source=f"as in ACI 318{in_mpa}, from memory; unverified: check against the standard",
+            source=f"formula of ACI 318{in_mpa}, from memory; "
+            "unverified: check against the standard",
         )
 
     def unit_forces(self) -> Steps:

@@ -17,7 +17,7 @@ class FullModel(Section):
         """Return the equations of motion and the crush law that the full model solves."""
         on_pier = self.case.truck.friction_on == "pier"
         relative = r"\dot x_2 - \dot x_\mathrm{p}" if on_pier else r"\dot x_2"
-        where = "while its spring touches the pier" if on_pier else "against the road"
+        where = "while its spring touches the pier" if on_pier else "from the road"
         on_the_pier = r" + F_\mathrm{f}" if on_pier else ""
         ours, paper = "derived here", "Fig. 2 of the source paper"
         rows = (
@@ -31,7 +31,7 @@ class FullModel(Section):
              ours),
             ("friction", f"Friction on the body, {where}", r"F_\mathrm{f}",
              rf"c_\mathrm{{s}} \operatorname{{sgn}}({relative}), "
-             r"\quad \text{sticking as long as less holds it}", ours),
+             r"\quad \text{at rest, whatever holds the body, up to } c_\mathrm{s}", ours),
             ("engine", "Motion of the engine", r"m_1 \, \ddot x_1", "-F_1", paper),
             ("body", "Motion of body and cargo", r"m_2 \, \ddot x_2",
              r"-F_2 - F_\mathrm{f}", paper),
@@ -54,6 +54,9 @@ class FullModel(Section):
             "E_i": "eq-model-envelope",
             "F_i": "eq-model-force",
             "F_f": "eq-model-friction",
+            "x_i": "eq-model-crush",
+            "x_p": "eq-model-pier",
+            "R_t": "fig-history",
             "R": "eq-design-reaction",
             "R_D": "tab-check",
             "R_M": "tab-check",
@@ -190,7 +193,7 @@ class FullModel(Section):
                 Equation(
                     label="eq-design-reaction",
                     name="Design reaction: procedure or full model",
-                    symbol="R",
+                    symbol=SYMBOLS["R"].latex,
                     lines=[rf"\max({names})", rf"\max({procedure}, {model}) = {larger}"],
                 )
             ]

@@ -21,18 +21,33 @@ class MemberForcesUnderReaction(Section):
         """Return support forces and extreme member forces under the design reaction."""
         forces = self.calculation.member_forces
         values = [
-            ("Force on the base", r"R \, R_\mathrm{b}", forces.base_force, "force"),
-            ("Force on the top", r"R \, R_\mathrm{t}", forces.top_force, "force"),
-            ("Moment at the base", r"R \, M_\mathrm{b}", forces.base_moment, "moment"),
-            ("Moment at the impact", r"R \, M_\mathrm{n}", forces.impact_moment, "moment"),
-            ("Moment at the top", r"R \, M_\mathrm{t}", forces.top_moment, "moment"),
+            (
+                "Support force at the base",
+                r"R_\mathrm{d} \, R_\mathrm{b}",
+                forces.base_force,
+                "force",
+            ),
+            (
+                "Support force at the top",
+                r"R_\mathrm{d} \, R_\mathrm{t}",
+                forces.top_force,
+                "force",
+            ),
+            ("Moment at the base", r"R_\mathrm{d} \, M_\mathrm{b}", forces.base_moment, "moment"),
+            (
+                "Moment at the impact",
+                r"R_\mathrm{d} \, M_\mathrm{n}",
+                forces.impact_moment,
+                "moment",
+            ),
+            ("Moment at the top", r"R_\mathrm{d} \, M_\mathrm{t}", forces.top_moment, "moment"),
             ("Largest shear", SYMBOLS["V_max"].latex, abs(forces.largest_shear.value), "force"),
             ("Largest moment", SYMBOLS["M_max"].latex, abs(forces.largest_moment.value), "moment"),
         ]
         return Table(
             label="tab-members",
             caption="Member forces under the design reaction as a static force at the impact.",
-            columns=columns("Force", "Symbol", decimal("Value"), "Unit"),
+            columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
             rows=[
                 [name, Tex(symbol), *self.shown(value, quantity)]
                 for name, symbol, value, quantity in values

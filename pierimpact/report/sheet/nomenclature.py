@@ -86,7 +86,7 @@ class Closing(Section):
 
 
 def _kind(label: str) -> str:
-    return "Table" if label.startswith("tab") else "Eq."
+    return {"tab": "Table", "fig": "Figure"}.get(label[:3], "Eq.")
 
 
 def _by_alphabet(entry: tuple[str, object]) -> tuple[int, int, str, str]:

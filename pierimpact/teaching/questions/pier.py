@@ -70,6 +70,6 @@ QUESTIONS = (
         "1.05 m to 1.35 m, the pier becomes …",
         choices=("stiffer", "softer"),
         answer=_softer_when_higher,
-        reason="The lever arm is longer: less force for the same deflection.",
+        reason="Farther from its fixed base the column is more flexible.",
     ),
 )
