@@ -5,20 +5,12 @@ paper), by the force method of beam theory with flexure and shear. Derived here.
 stands for is in `pierimpact.symbols`, how the lines are printed in `pierimpact.handcalc`. Moments
 are per unit of force; the shape below and above the impact is a polynomial in s, the distance
 from the base or from the top over the height of the column.
+
+Forces and moments of the far end are written out, as the difference of 1 and a number close to it
+would lose them where the impact is close to an end, and the far shape with them.
 """
 
 from pierimpact.handcalc import Calculation
-
-
-def other_end(R, M, H, here, there):
-    """Return force and moment at the other end, and the moment at the impact.
-
-    From force and moment at one end, and the distances of the impact from here and from there.
-    """
-    other_R = 1 - R  # equilibrium
-    other_M = M + R * H - there  # equilibrium
-    Mn = M + R * here  # equilibrium
-    return other_R, other_M, Mn
 
 
 def stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA):
@@ -87,7 +79,9 @@ def fixed_free(H, z, y, EI, GA):
     """A cantilever from the base."""
     Rt = 0  # free top
     Mt = 0  # free top
-    Rb, Mb, Mn = other_end(Rt, Mt, H, y, z)
+    Rb = 1  # equilibrium
+    Mb = -z  # equilibrium
+    Mn = 0  # free above the impact
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
     ct1, ct0 = free_end(st, sb, cb2, cb3)
@@ -101,7 +95,9 @@ def free_fixed(H, z, y, EI, GA):
     """A cantilever from the top."""
     Rb = 0  # free base
     Mb = 0  # free base
-    Rt, Mt, Mn = other_end(Rb, Mb, H, z, y)
+    Rt = 1  # equilibrium
+    Mt = -y  # equilibrium
+    Mn = 0  # free below the impact
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
     cb1, cb0 = free_end(sb, st, ct2, ct3)
@@ -129,11 +125,13 @@ def pinned_pinned(H, z, y, EI, GA):
 @Calculation
 def fixed_pinned(H, z, y, EI, GA):
     """A column propped at the top: the top is released, and brought back by its force."""
-    delta10 = z**2 * (3 * H - z) / (6 * EI) + z / GA  # flexure and shear
+    delta10 = z**2 * (2 * H + y) / (6 * EI) + z / GA  # flexure and shear
     delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
     Rt = delta10 / delta11  # no displacement at the released end
+    Rb = (y * (3 * H**2 - y**2) / (6 * EI) + y / GA) / delta11  # equilibrium
     Mt = 0  # pinned top
-    Rb, Mb, Mn = other_end(Rt, Mt, H, y, z)
+    Mb = -z * y * H * (H + y) / (6 * EI * delta11)  # equilibrium
+    Mn = Rt * y  # equilibrium
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
     ct3, ct1 = pinned_end(Rt, st, H, EI, xn)
@@ -148,8 +146,10 @@ def pinned_fixed(H, z, y, EI, GA):
     delta10 = y**2 * (2 * H + z) / (6 * EI) + y / GA  # flexure and shear
     delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
     Rb = delta10 / delta11  # no displacement at the released end
+    Rt = (z * (3 * H**2 - z**2) / (6 * EI) + z / GA) / delta11  # equilibrium
     Mb = 0  # pinned base
-    Rt, Mt, Mn = other_end(Rb, Mb, H, z, y)
+    Mt = -z * y * H * (H + z) / (6 * EI * delta11)  # equilibrium
+    Mn = Rb * z  # equilibrium
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb3, cb1 = pinned_end(Rb, sb, H, EI, xn)
     ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
@@ -162,12 +162,14 @@ def pinned_fixed(H, z, y, EI, GA):
 def fixed_fixed(H, z, y, EI, GA):
     """Both ends fixed: the top may move but not rotate, and is brought back by its force."""
     delta10 = (
-        z**2 * (3 * H - 2 * z) / (12 * EI) + z / GA
+        z**2 * (H + 2 * y) / (12 * EI) + z / GA
     )  # flexure and shear; the released end does not rotate
     delta11 = H**3 / (12 * EI) + H / GA  # flexure and shear; the released end does not rotate
     Rt = delta10 / delta11  # no displacement at the released end
-    Mt = z**2 / (2 * H) - Rt * H / 2  # no rotation at the top
-    Rb, Mb, Mn = other_end(Rt, Mt, H, y, z)
+    Rb = (y**2 * (H + 2 * z) / (12 * EI) + y / GA) / delta11  # equilibrium
+    Mt = -z * y * (z * H / (12 * EI) + 1 / (2 * GA)) / delta11  # no rotation at the top
+    Mb = -z * y * (y * H / (12 * EI) + 1 / (2 * GA)) / delta11  # equilibrium
+    Mn = Mb + Rb * z  # equilibrium
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
     ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
