@@ -110,7 +110,7 @@ def free_fixed(H, z, y, EI, GA):
 def pinned_pinned(H, z, y, EI, GA):
     """A simply supported column."""
     Rt = z / H  # equilibrium
-    Rb = 1 - Rt  # equilibrium
+    Rb = y / H  # equilibrium
     Mt = 0  # pinned top
     Mb = 0  # pinned base
     Mn = Rt * y  # equilibrium
