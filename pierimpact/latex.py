@@ -1,6 +1,7 @@
 """Expressions of Python in LaTeX, with brackets only where they are needed."""
 
 import ast
+import re
 from collections.abc import Mapping, Sequence
 
 #: Functions that print; those with two holes take two arguments, the others a list of them.
@@ -126,8 +127,8 @@ def _number(value: float) -> str:
 
 
 def _compound(text: str) -> bool:
-    """Return whether a value has a unit or a power of ten."""
-    return r"\text" in text or r"\times" in text
+    """Return whether a value has a unit or a power of ten, or a symbol is a product, such as EI."""
+    return r"\text" in text or r"\times" in text or re.search("(^| )[A-Z]{2}", text) is not None
 
 
 def _flattened(name: str, arguments: Sequence[ast.expr]) -> list[ast.expr]:

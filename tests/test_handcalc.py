@@ -307,6 +307,19 @@ def printed(calculation, values):
             condition.latex({"x": "x"})
 
 
+def test_symbols_that_are_products_stay_together():
+    @Calculation
+    def quotient(x, y):
+        q = x / y + x**3 / (3 * y) + (x / y) ** 2
+        return locals()
+
+    (step,) = quotient.steps(quotient(x=1.0, y=2.0), ["q"])
+    found = step.latex({"x": "H", "y": r"\kappa GA"})
+    assert found == (
+        r"\frac{H}{\kappa GA} + \frac{H^{3}}{3 \, \kappa GA} + \left(\frac{H}{\kappa GA}\right)^{2}"
+    )
+
+
 # The package's own calculations
 
 
