@@ -41,7 +41,9 @@ class Condition(NamedTuple):
     def latex(self, symbols: Mapping[str, str]) -> str:
         """Return what holds in LaTeX: the condition, or its contrary; a flag as its name."""
         match self.expression:
-            case ast.Compare(left=left, ops=[comparison], comparators=[right]):
+            case ast.Compare(left=left, ops=[comparison], comparators=[right]) if (
+                type(comparison) in _COMPARISONS
+            ):
                 sign = _COMPARISONS[type(comparison)][0 if self.holds else 1]
                 printer = Printer(symbols, r"\,")
                 return f"{printer.text(left)} {sign} {printer.text(right)}"
@@ -117,7 +119,12 @@ class Calculation:
 
     @cached_property
     def _lines(self) -> list[_Line]:
-        return _lines(self.function)
+        lines, names = _lines(self.function), set(self.given)
+        for name, *_ in lines:
+            if name in names:  # the values before would be lost, but used
+                raise CalculationError(f"{self.function.__name__} gives {name} twice")
+            names.add(name)
+        return lines
 
     def steps(self, values: Mapping[str, Any], results: Iterable[str]) -> list[Step]:
         """Return the steps that results rest on in one case, in order.
@@ -140,7 +147,7 @@ class Calculation:
                 continue
             case = _Case(_scope(self.function), values)
             applies = case.visit(deepcopy(expression))
-            step = Step(name, applies, tuple(case.conditions), remark)
+            step = Step(name, applies, tuple(case.conditions.values()), remark)
             needed |= step.names | {n for c in step.conditions for n in _names(c.expression)}
             found.append(step)
         return found[::-1]
@@ -170,7 +177,7 @@ def _lines(function: Callable[..., Any]) -> list[_Line]:
                 lines.append(_Line(name, value, remark))
             case ast.Assign(
                 targets=[ast.Tuple(elts=names)],
-                value=ast.Call(func=ast.Name(id=part), args=arguments),
+                value=ast.Call(func=ast.Name(id=part), args=arguments, keywords=[]),
             ) if part in scope:
                 lines += _lines_of_part(scope[part], [ast.unparse(n) for n in names], arguments)
             case _:
@@ -204,11 +211,13 @@ class _Case(ast.NodeTransformer):
     """Decides each `where` by the values, and puts formulas and constants in."""
 
     def __init__(self, scope: Mapping[str, Any], values: Mapping[str, Any]) -> None:
-        self.scope, self.values = scope, values
-        self.conditions: list[Condition] = []
+        self.scope, self.values, self.constants = scope, values, _constants(scope)
+        self.conditions: dict[str, Condition] = {}  # each once, by its text
 
     def visit_Call(self, node: ast.Call) -> ast.expr:
         match node:
+            case ast.Call(keywords=[_, *_]):  # would be passed over
+                pass
             case ast.Call(func=ast.Name(id="where"), args=[condition, yes, no]):
                 holds = self._decide(condition)
                 return self.visit(yes if holds else no)  # type: ignore[no-any-return]
@@ -224,22 +233,20 @@ class _Case(ast.NodeTransformer):
                 put = _bound(formula, [self.visit(argument) for argument in arguments])
                 inner = _Case(_scope(formula), self.values)
                 expression = inner.visit(_Put(put).visit(deepcopy(last.value)))
-                self.conditions += [c for c in inner.conditions if c not in self.conditions]
+                self.conditions |= inner.conditions
                 return expression  # type: ignore[no-any-return]
         raise unprintable("the call", node)
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
-        if node.id not in self.values and isinstance(self.scope.get(node.id), int | float):
-            return node if node.id == "pi" else ast.Constant(self.scope[node.id])
-        return node
+        return node if node.id in self.values else self.constants.get(node.id, node)
 
     def _decide(self, condition: ast.expr) -> bool:
         """Decide a condition, and note as little of it as decides."""
-        parts = _conjuncts(condition)
+        parts = _conjuncts(self.visit(deepcopy(condition)))
         decided = [Condition(part, bool(self._value(part))) for part in parts]
         holds = all(part.holds for part in decided)
         noted = decided if holds else [part for part in decided if not part.holds][:1]
-        self.conditions += [part for part in noted if part not in self.conditions]
+        self.conditions |= {ast.unparse(part.expression): part for part in noted}
         return holds
 
     def _value(self, node: ast.expr) -> Any:
@@ -264,13 +271,22 @@ class _Put(ast.NodeTransformer):
 
 
 def _bound(function: Callable[..., Any], arguments: Sequence[ast.expr]) -> dict[str, ast.expr]:
-    """Return the arguments of a call by the names of the parameters, defaults included."""
+    """Return what the names in a function stand for: arguments, defaults, and constants."""
     bound = inspect.signature(function).bind(*arguments)
     given = dict(bound.arguments)
     bound.apply_defaults()
-    return {
+    return _constants(function.__globals__) | {
         name: value if name in given else ast.Constant(value)
         for name, value in bound.arguments.items()
+    }
+
+
+def _constants(scope: Mapping[str, Any]) -> dict[str, ast.expr]:
+    """Return the numbers in a scope; π stays a symbol."""
+    return {
+        name: ast.Constant(value)
+        for name, value in scope.items()
+        if isinstance(value, int | float) and name != "pi"
     }
 
 

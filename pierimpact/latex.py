@@ -1,6 +1,7 @@
 """Expressions of Python in LaTeX, with brackets only where they are needed."""
 
 import ast
+import re
 from collections.abc import Mapping, Sequence
 
 #: Functions that print; those with two holes take two arguments, the others a list of them.
@@ -19,7 +20,7 @@ CALLS = {
     "sqrt": r"\sqrt{%s}",
 }  # fmt: skip
 _NESTED = ("maximum", "minimum")
-_ALONE, _SUM, _PRODUCT, _POWER = range(4)  # how tightly the surroundings bind
+_ALONE, _SUM, _PRODUCT, _POWER, _BASE = range(5)  # how tightly the surroundings bind
 
 
 class CalculationError(TypeError):
@@ -48,7 +49,7 @@ class Printer:
             case ast.Name(id=name):
                 return self._operand(self.shown[name], outer)
             case ast.Constant(value=int() | float() as value):
-                return self._operand(f"{value:g}", outer)
+                return self._operand(_number(value), outer)
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 return within(f"-{self.text(operand, _PRODUCT, flat)}", _ALONE)
             case ast.BinOp(op=ast.Mult() | ast.Div()) if positive := _without_sign(node):
@@ -59,9 +60,13 @@ class Printer:
                 left = self.text(a, _ALONE, flat)
                 return within(f"{left} {'+' if plus else '-'} {right}", _SUM)
             case ast.BinOp(left=ast.Constant(), op=ast.Mult(), right=ast.Name(id="pi")):
-                return within(rf"{self.text(node.left)} \pi", _PRODUCT)
+                return within(rf"{self.text(node.left, _PRODUCT)} \pi", _PRODUCT)
             case ast.BinOp(left=a, op=ast.Mult(), right=b):
-                pair = self.text(a, _PRODUCT, flat), self.text(b, _PRODUCT, flat)
+                split = flat and isinstance(a, ast.BinOp) and isinstance(a.op, ast.Div)
+                pair = (
+                    self.text(a, _POWER if split else _PRODUCT, flat),
+                    self.text(b, _PRODUCT, flat),
+                )
                 return within(f" {self.times} ".join(pair), _PRODUCT)
             case ast.BinOp(left=a, op=ast.Div(), right=b) if flat or (
                 self._short(a) and self._short(b) and outer != _PRODUCT
@@ -71,24 +76,24 @@ class Printer:
             case ast.BinOp(
                 left=ast.Constant(value=1), op=ast.Div(), right=ast.Call(args=[a]) as call
             ) if ast.unparse(call.func) == "sqrt" and r"\frac" in self.text(a):
-                return f"{self.text(a, _POWER)}^{{-1/2}}"
+                return within(f"{self.text(a, _BASE)}^{{-1/2}}", _POWER)
             case ast.BinOp(left=a, op=ast.Div(), right=b):
-                return rf"\frac{{{self.text(a)}}}{{{self.text(b)}}}"
+                return within(rf"\frac{{{self.text(a)}}}{{{self.text(b)}}}", _POWER)
             case ast.BinOp(left=a, op=ast.Pow(), right=b):
                 power = self.text(b, _ALONE, flat=True)
-                return f"{self.text(a, _POWER, flat)}^{{{power}}}"
+                return within(f"{self.text(a, _BASE, flat)}^{{{power}}}", _POWER)
             case ast.Call(func=ast.Name(id=name), args=arguments) if name in CALLS:
                 arguments = _flattened(name, arguments)
                 holes = CALLS[name].count("%s")
-                tight = _POWER if holes > 1 else _ALONE
+                tight = _BASE if holes > 1 else _ALONE
                 inner = tuple(self.text(a, tight, flat or name == "exp") for a in arguments)
                 found = CALLS[name] % (inner if holes > 1 else ", ".join(inner))
-                return within(found, _PRODUCT if name == "mod" else _POWER)
+                return within(found, {"mod": _SUM, "exp": _POWER}.get(name, _BASE))
         raise unprintable("the expression", node)
 
     def _operand(self, text: str, outer: int) -> str:
         """Return a symbol or a value; a sign, a unit or a power of ten may want brackets."""
-        own = _ALONE if text.startswith("-") else _PRODUCT if _compound(text) else _POWER
+        own = _ALONE if text.startswith("-") else _PRODUCT if _compound(text) else _BASE
         return f"({text})" if own < outer else text
 
     def _short(self, node: ast.expr) -> bool:
@@ -114,9 +119,16 @@ def _without_sign(node: ast.expr) -> ast.expr | None:
     return None
 
 
+def _number(value: float) -> str:
+    """Return a constant to all its figures, as Python writes it but for powers of ten."""
+    text = f"{value:g}"
+    mantissa, _, power = (text if float(text) == value else repr(value)).partition("e")
+    return rf"{mantissa} \times 10^{{{int(power)}}}" if power else mantissa
+
+
 def _compound(text: str) -> bool:
-    """Return whether a value has a unit or a power of ten."""
-    return r"\text" in text or r"\times" in text
+    """Return whether a value has a unit or a power of ten, or a symbol is a product, such as EI."""
+    return r"\text" in text or r"\times" in text or re.search("(^| )[A-Z]{2}", text) is not None
 
 
 def _flattened(name: str, arguments: Sequence[ast.expr]) -> list[ast.expr]:

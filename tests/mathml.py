@@ -50,6 +50,8 @@ def tokens(element):
         return ["math.sqrt", "(", *(token for child in children for token in tokens(child)), ")"]
     if tag == "msup":
         base, power = map(tokens, children)
+        of = children[0].tag.removeprefix(NAMESPACE)
+        assert of not in ("mfrac", "msup") or power == ["′"], "a power wants brackets"
         if power == ["′"]:
             return ["".join(base) + "′"]
         if base == ["e"]:

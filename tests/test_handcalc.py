@@ -19,6 +19,7 @@ from pierimpact.pier.unit_force import BY_ENDS
 from pierimpact.symbols import SYMBOLS
 
 FACTOR = 2.5
+LIMIT, SHADOWED, TINY, LONG = -3.0, 7.0, 2e-5, 0.123456789
 EVERY = {
     "circle": circle,
     "rectangle": rectangle,
@@ -113,6 +114,52 @@ def test_formulas_and_constants_print_in_full():
     assert found["h"].latex({"f": "7.0"}, r"\times") == r"2.5 \times 7.0"
 
 
+def shadowed(x):
+    return SHADOWED * x
+
+
+@Calculation
+def with_constants(x, SHADOWED):
+    a = where(x > LIMIT, TINY * x, LONG * x)
+    b = shadowed(x)
+    c = where(scaled(x) > 1, x, LIMIT * pi - x)
+    d = x - LONG / (1 + x)
+    return locals()
+
+
+def larger(x, y):
+    return where(x > y, x, y)
+
+
+@Calculation
+def repeated(x, y):
+    a = where(x > y, x, y) + larger(x, y) * larger(y, x)
+    return locals()
+
+
+def test_a_condition_is_noted_once():
+    (step,) = repeated.steps(repeated(x=1.0, y=2.0), ["a"])
+    shown = {"x": "x", "y": "y"}
+    assert step.latex(shown) == r"y + y \, y"
+    assert [each.latex(shown) for each in step.conditions] == [r"x \le y", "y > x"]
+
+
+def test_constants_print_as_what_they_are_wherever_they_stand():
+    values = with_constants(x=0.25, SHADOWED=2.0)
+    assert values["b"] == 7.0 * 0.25
+    found = {step.name: step for step in with_constants.steps(values, with_constants.names)}
+    shown = {"x": "x", "SHADOWED": "s"}
+    assert {name: step.latex(shown) for name, step in found.items()} == {
+        "a": r"2 \times 10^{-5} \, x",
+        "b": r"7 \, x",
+        "c": r"(-3) \pi - x",
+        "d": r"x - \frac{0.123456789}{1 + x}",
+    }
+    assert [each.latex(shown) for each in found["a"].conditions] == ["x > -3"]
+    assert [each.latex(shown) for each in found["c"].conditions] == [r"2.5 \, x \le 1"]
+    assert found["a"].names == {"x"}
+
+
 @Calculation
 def powers(x, y):
     r = -(x**2) * exp(-x * y / 2)
@@ -121,6 +168,9 @@ def powers(x, y):
     u = maximum(maximum(x, y), minimum(y, -x)) / (x / y)
     v = (x + y) * (x - y) ** 3 - -x
     w = x / (y * (1 + x**2)) * ((y + 1) / 2)
+    p = (x / (1 + y)) ** 2 + (x**2) ** y + exp(x / y) ** 2 + exp(-x / y * y)
+    q = 1 / sqrt((x + 2) / (y + 1)) + hypot(x / (1 + y), y**2)
+    o = mod(x, y) * y + mod(x, y) ** 2
     return locals()
 
 
@@ -146,6 +196,7 @@ def test_brackets_stand_where_the_tree_needs_them_and_nowhere_else():
         r"\left[x - \left(y - 1\right)\right]"
     )
     assert found["u"] == r"\frac{\max(x, y, \min(y, -x))}{x / y}"
+    assert found["o"] == r"\left(x \bmod y\right) \, y + \left(x \bmod y\right)^{2}"
     assert found["v"] == r"\left(x + y\right) \, \left(x - y\right)^{3} - \left(-x\right)"
 
 
@@ -206,9 +257,31 @@ def compares(x):
     return locals()
 
 
+@Calculation
+def names_arguments(x):
+    y = scaled(x, factor=3)
+    return locals()
+
+
+@Calculation
+def equals(x):
+    y = where(x == 1, x, 0)
+    return locals()
+
+
+@Calculation
+def gives_twice(x):
+    y = x + 1
+    y = 2 * y
+    return locals()
+
+
 @pytest.mark.parametrize(
     ("calculation", "given", "words"),
     [
+        (names_arguments, {"x": 1.0}, "cannot print: scaled(x, factor=3)"),
+        (equals, {"x": 1.0}, "cannot print: x == 1"),
+        (gives_twice, {"x": 1.0}, "gives_twice gives y twice"),
         (repeats, {"x": [1.0]}, "repeats has what a calculation cannot print: for each in x"),
         (unknown, {"x": 0.5}, "cannot print: np.interp(x, [0, 1], [0, 2])"),
         (with_method, {"x": np.ones(2)}, "cannot print: x.sum()"),
@@ -232,6 +305,19 @@ def printed(calculation, values):
     for step in calculation.steps(values, ["y" if "y" in values else "total"]):
         for condition in step.conditions:
             condition.latex({"x": "x"})
+
+
+def test_symbols_that_are_products_stay_together():
+    @Calculation
+    def quotient(x, y):
+        q = x / y + x**3 / (3 * y) + (x / y) ** 2
+        return locals()
+
+    (step,) = quotient.steps(quotient(x=1.0, y=2.0), ["q"])
+    found = step.latex({"x": "H", "y": r"\kappa GA"})
+    assert found == (
+        r"\frac{H}{\kappa GA} + \frac{H^{3}}{3 \, \kappa GA} + \left(\frac{H}{\kappa GA}\right)^{2}"
+    )
 
 
 # The package's own calculations
