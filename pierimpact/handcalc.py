@@ -20,9 +20,11 @@ import tokenize
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import deepcopy
 from functools import cache, cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from pierimpact.latex import CALLS, CalculationError, Printer, unprintable
+
+Real: TypeAlias = Any  # what a symbol stands for: a float, or an array
 
 _COMPARISONS: dict[type[ast.cmpop], tuple[str, str]] = {  # that holds, and that does not
     ast.Gt: (">", r"\le"),
@@ -197,10 +199,10 @@ def _lines_of_part(
     lines = _lines(part)
     if sorted(line.name for line in lines) != sorted(inside) or len(inside) != len(names):
         raise CalculationError(f"{part.__name__} must return every symbol that it gives")
-    put = _bound(part, arguments) | {
-        own: ast.Name(name, ast.Load()) for own, name in zip(inside, names, strict=True)
-    }
     outside = dict(zip(inside, names, strict=True))
+    put = _bound(part, arguments) | {
+        own: ast.Name(name, ast.Load()) for own, name in outside.items()
+    }
     return [
         _Line(outside[line.name], _Put(put).visit(deepcopy(line.expression)), line.remark)
         for line in lines

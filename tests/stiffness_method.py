@@ -19,7 +19,11 @@ def solve(column, heights, impact_height):
     """
     modulus, poisson = Fraction(column.elastic_modulus), Fraction(column.poisson_ratio)
     bending = modulus * Fraction(column.section.second_moment)
-    shearing = modulus / (2 * (1 + poisson)) * Fraction(column.section.shear_area)
+    shearing = (
+        modulus
+        / (2 * (1 + poisson))
+        * Fraction(column.section.shear_coefficient * column.section.area)
+    )
     nodes = [Fraction(height) for height in heights]
     size = 2 * len(nodes)
     stiffness = [[Fraction(0)] * size for _ in range(size)]

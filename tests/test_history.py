@@ -202,7 +202,7 @@ def test_a_truck_that_has_left_flies_freely_and_the_pier_rings_on():
             np.testing.assert_allclose(
                 path, path[0] + velocity[-1] * time, rtol=0.0, atol=1e-12 * speed
             )
-        zeta, omega = pier.damping_ratio, pier.circular_frequency
+        zeta, omega = pier.damping_ratio, math.sqrt(pier.stiffness / pier.mass)
         damped = omega * math.sqrt(1.0 - zeta**2)
         x, v = history.pier_displacement[pushed + 1], history.pier_velocity[pushed + 1]
         ringing = np.exp(-zeta * omega * time) * (

@@ -102,7 +102,9 @@ def test_the_readout_of_a_collision(full):
     strike = full.scenario()
     cells, words = numbers_of(full)
     assert cells["½ (m₁ + m₂) V²"] == "2.000 MJ"
-    assert cells["frequency of the pier"] == str(printed(strike.pier.frequency, "frequency", "SI"))
+    assert cells["natural frequency of the pier"] == str(
+        printed(strike.pier.frequency, "frequency", "SI")
+    )
     assert cells["stiffness of the pier"] == str(printed(strike.pier.stiffness, "stiffness", "SI"))
     assert cells["equivalent mass of the pier"] == str(printed(strike.pier.mass, "mass", "SI"))
     history = simulate(strike.truck, strike.pier, 20.0)

@@ -102,12 +102,20 @@ class CollisionHistory:
         return Peak(self.pier.stiffness * self.end.cargo_peak, self.end.cargo_peak_time)
 
     @property
+    def peaks(self) -> dict[str, Peak | None]:
+        """The "engine" and the "cargo" peak."""
+        return {"engine": self.engine_peak, "cargo": self.cargo_peak}
+
+    @property
     def governing_peak(self) -> Peak:
         """The larger of the two peaks."""
         cargo = self.cargo_peak
-        if cargo is not None and cargo.reaction > self.engine_peak.reaction:
-            return cargo
-        return self.engine_peak
+        return cargo if cargo and cargo.reaction > self.engine_peak.reaction else self.engine_peak
+
+    @property
+    def governs(self) -> str:
+        """Which of the two peaks is the larger: "engine" or "cargo"."""
+        return "engine" if self.governing_peak == self.engine_peak else "cargo"
 
     @property
     def engine_contact_time(self) -> float | None:

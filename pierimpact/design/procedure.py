@@ -10,7 +10,7 @@ stands for is in `pierimpact.symbols`, how the lines are printed in `pierimpact.
 
 from collections.abc import Callable
 from math import pi
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy import (
@@ -32,10 +32,9 @@ from numpy import (
 
 from pierimpact.checks import one_of
 from pierimpact.collision.parameters import Parameters
-from pierimpact.handcalc import Calculation
+from pierimpact.handcalc import Calculation, Real
 from pierimpact.pier.equivalent import damping_coefficient
 
-Real: TypeAlias = Any  # a float, or an array
 Values: TypeAlias = dict[str, Real]
 
 # The coefficients of the unified spectrum, fitted by `study`, and of the rule for the vibration
@@ -403,7 +402,10 @@ def by_symbol(parameters: Parameters) -> Values:
     """Return truck, pier and speed by the names of their symbols."""
     values: Values = {"V": parameters.speed}
     for i, spring in ((1, parameters.engine), (2, parameters.body)):
-        values |= {f"{name}{i}": value for name, value in zip(_SPRING, spring, strict=True)}
+        values |= {
+            f"{name}{i}": value
+            for name, value in zip(("m", "P", "d", "k", "ku"), spring, strict=True)
+        }
     mass, stiffness = parameters.pier_mass, parameters.pier_stiffness
     return values | {
         "cs": parameters.friction_force,
@@ -412,6 +414,3 @@ def by_symbol(parameters: Parameters) -> Values:
         "zeta": parameters.pier_damping / damping_coefficient(mass, stiffness, 1.0),
         "on_pier": parameters.on_pier,
     }
-
-
-_SPRING = ("m", "P", "d", "k", "ku")

@@ -2,28 +2,23 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, not_negative, number, one_of, positive
-from pierimpact.handcalc import Calculation
+from pierimpact.handcalc import Calculation, Real
 from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass
 from pierimpact.pier.member_forces import MemberForces
 from pierimpact.pier.sections import Section
 from pierimpact.pier.unit_force import BY_ENDS
 
-Real: TypeAlias = Any  # a float, or an array
-
 END_CONDITIONS = ("fixed", "pinned", "free")
 
 
 @Calculation
-def rigidities(
-    E: Real, nu: Real, rho: Real, A: Real, I: Real, kappa: Real
-) -> dict[str, Real]:  # fmt: skip
+def rigidities(E: Real, nu: Real, rho: Real, A: Real, I: Real, kappa: Real) -> dict[str, Real]:
     """The rigidities of a section, and its mass per length."""
     EI = E * I
     G = E / (2 * (1 + nu))

@@ -2,14 +2,11 @@
 
 from dataclasses import dataclass
 from math import pi
-from typing import Any, TypeAlias
 
 from numpy import sqrt
 
 from pierimpact.checks import InputError, not_negative, positive
-from pierimpact.handcalc import Calculation
-
-Real: TypeAlias = Any  # a float, or an array of any shape
+from pierimpact.handcalc import Calculation, Real
 
 
 def natural_frequency(mass: Real, stiffness: Real) -> Real:
@@ -89,13 +86,8 @@ class EquivalentPier:
         return vibration(kp=self.stiffness, mp=self.mass, zeta=self.damping_ratio)
 
     @property
-    def circular_frequency(self) -> float:
-        """Undamped circular frequency ω_p = √(k_p/m_p) [rad/s]."""
-        return float(sqrt(self.stiffness / self.mass))
-
-    @property
     def frequency(self) -> float:
-        """Undamped frequency f_p = ω_p/2π [Hz]."""
+        """Undamped frequency f_p [Hz]."""
         return float(natural_frequency(self.mass, self.stiffness))
 
     @property

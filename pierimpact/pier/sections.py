@@ -2,12 +2,10 @@
 
 from dataclasses import dataclass
 from math import pi
-from typing import Any, ClassVar, TypeAlias
+from typing import ClassVar
 
 from pierimpact.checks import InputError, positive
-from pierimpact.handcalc import Calculation
-
-Real: TypeAlias = Any  # a float, or an array
+from pierimpact.handcalc import Calculation, Real
 
 
 @Calculation
@@ -57,11 +55,6 @@ class _Section:
     def second_moment(self) -> float:
         """Second moment of area I for bending in the direction of travel [m⁴]."""
         return self.values["I"]
-
-    @property
-    def shear_area(self) -> float:
-        """Shear area κA [m²]."""
-        return self.shear_coefficient * self.area
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -123,8 +123,7 @@ def mark_peaks(
     colours : mapping
         Colours of "engine" and "cargo".
     """
-    peaks = {"engine": history.engine_peak, "cargo": history.cargo_peak}
-    for name, peak in peaks.items():
+    for name, peak in history.peaks.items():
         if peak is None:
             continue
         x, y = peak.time / unit_size("time", system), peak.reaction / unit

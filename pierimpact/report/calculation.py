@@ -74,9 +74,7 @@ class Calculation:
     @property
     def governs(self) -> str:
         """Which peak the result is, by the method that it is from: engine or cargo."""
-        if self.ratio >= 1.0:
-            return self.design.governs
-        return "engine" if self.governing_peak == self.history.engine_peak else "cargo"
+        return self.design.governs if self.ratio >= 1.0 else self.history.governs
 
     @property
     def ratio(self) -> float:

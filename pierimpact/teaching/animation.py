@@ -87,7 +87,7 @@ def _moments(scenario: Scenario) -> list[float]:
     """Return the instants of the contacts and peaks [s]."""
     history = scenario.history
     contacts = (history.engine_contact_time, history.cargo_contact_time)
-    peaks = [peak.time for peak in scenario.peaks.values() if peak is not None]
+    peaks = [peak.time for peak in scenario.history.peaks.values() if peak is not None]
     return [time for time in contacts if time is not None] + peaks
 
 

@@ -95,7 +95,7 @@ class CollisionExplorer(Explorer):
             "forces": ((history,), (frame.time, frame.reaction)),
             "energy": ((history,), (frame.time,)),
         }
-        for body, peak in scenario.peaks.items() if "engine" in self.views else ():
+        for body, peak in scenario.history.peaks.items() if "engine" in self.views else ():
             curves = scenario.curves
             lines = curves.frequency, curves.full[body], curves.reduced[body]
             contents[body] = lines, (*lines, scenario.pier.frequency, peak and peak.reaction)
@@ -130,7 +130,7 @@ class CollisionExplorer(Explorer):
     def _stills(self, words: str) -> str:
         """Return the views as HTML, with a picture at either peak."""
         pictures = ""
-        for body, peak in reversed(self.animation.scenario.peaks.items()):
+        for body, peak in reversed(self.animation.scenario.history.peaks.items()):
             if peak is not None:
                 self.show(peak.time)  # the engine's at last, which stays on show
                 self.redraw()

@@ -93,7 +93,7 @@ def bars(scenario: Scenario) -> list[Bar]:
     """Return the forces of full model, design procedure and codes."""
     found = [
         Bar(f"Full model, {body}", None if peak is None else peak.reaction, BODIES[body], "")
-        for body, peak in scenario.peaks.items()
+        for body, peak in scenario.history.peaks.items()
     ]
     for level in LEVELS:
         reaction = scenario.design(level).reaction
@@ -118,7 +118,7 @@ def influences(scenario: Scenario) -> dict[str, Array | None]:
     changed = peak_reactions(trucks, pier.mass, pier.stiffness, pier.damping_ratio, scenario.speed)
     return {
         body: None if peak is None else getattr(changed, body).reshape(-1, 2) / peak.reaction - 1.0
-        for body, peak in scenario.peaks.items()
+        for body, peak in scenario.history.peaks.items()
     }
 
 

@@ -66,8 +66,7 @@ def outcome(scenario: Scenario) -> str:
         )
     if cargo is None:
         return f"{words}. The cargo stops short of the pier: there is no cargo peak."
-    name = "cargo" if history.governing_peak == cargo else "engine"
-    return f"{words}; cargo peak {peak_at(cargo)}. The {name} governs."
+    return f"{words}; cargo peak {peak_at(cargo)}. The {history.governs} governs."
 
 
 def instant(frame: Frame, phase: str) -> str:
@@ -114,7 +113,7 @@ def amplification(scenario: Scenario, values: dict[str, float]) -> Readout:
     """Return the steps from contact speed to reaction beside the full model’s."""
     heads = ("", "contact speed", "μ", "e", "β", "S", "two degrees of freedom", "full model")
     rows, words = [], []
-    for i, (body, peak) in enumerate(scenario.peaks.items(), 1):
+    for i, (body, peak) in enumerate(scenario.history.peaks.items(), 1):
         speed, reduced = printed(values[f"v{i}"], "speed", "SI"), values[f"R{i}"]
         terms = [f"{values[f'{name}{i}']:.3f}" for name in ("mu", "e", "beta", "S")]
         rows.append((body, str(speed), *terms, force(reduced), reaction(peak)))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.checks import InputError
-from pierimpact.collision.history import CollisionHistory, Peak
+from pierimpact.collision.history import CollisionHistory
 from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.collision.simulate import peak_reactions, simulate
 from pierimpact.design.procedure import design_values
@@ -158,8 +158,7 @@ class Scenario:
     def history(self) -> CollisionHistory:
         """The collision by the full model, until a while after its last peak."""
         history = simulate(self.truck, self.pier, self.speed, _SHORTEST)
-        peaks = (history.engine_peak, history.cargo_peak)
-        last = max(peak.time for peak in peaks if peak is not None)
+        last = max(peak.time for peak in history.peaks.values() if peak is not None)
         end = max(_SHORTEST, _STEP * math.ceil(1.1 * last / _STEP))
         if history.end.time < end:
             history = simulate(self.truck, self.pier, self.speed, end)
@@ -169,11 +168,6 @@ class Scenario:
             if state.time < end
         ]
         return replace(history, steps=steps)  # its peaks stay those of the whole
-
-    @property
-    def peaks(self) -> dict[str, Peak | None]:
-        """The engine and the cargo peak of the collision."""
-        return {"engine": self.history.engine_peak, "cargo": self.history.cargo_peak}
 
     def design(self, level: str) -> DesignReaction:
         """Return the design reaction of the collision by one of the levels."""

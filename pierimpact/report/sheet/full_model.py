@@ -98,7 +98,7 @@ class FullModel(Section):
                 self.number(contact, "time"),
                 self.number(peak.reaction if peak else None, "force"),
                 self.number(peak.time, "time") if peak else "",
-                "governs" if peak and peak == history.governing_peak else "",
+                "governs" if name.lower() == history.governs else "",
             ]
             for name, contact, peak in peaks
         ]
@@ -114,7 +114,7 @@ class FullModel(Section):
                 "",
             ),
             rows=rows,
-            strong=[1 if history.governing_peak == history.cargo_peak else 0],
+            strong=[["engine", "cargo"].index(history.governs)],
         )
 
     def averages(self) -> Block:

@@ -48,7 +48,6 @@ class Summary(Section):
         parts = f"engine {self.shown(design.engine, 'force')}"
         if design.cargo is not None:
             parts += f", cargo {self.shown(design.cargo, 'force')}"
-        which = "engine" if peak == result.history.engine_peak else "cargo"
         results = [
             (
                 "Design reaction",
@@ -59,7 +58,7 @@ class Summary(Section):
             (
                 "Full model",
                 self.shown(peak.reaction, "force"),
-                f"{which} peak; procedure over model {rounded(result.ratio, 3)}",
+                f"{result.history.governs} peak; procedure over model {rounded(result.ratio, 3)}",
             ),
             self._demand("shear"),
             self._demand("moment"),
