@@ -1,6 +1,11 @@
 """Settings of all tests, and their order."""
 
+import os
+
 from hypothesis import settings
+
+# The workers share the cores: threads of their own for small matrices only wait for each other.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # The same examples every time, so that a run can be repeated, and as slow as the machine is.
 settings.register_profile("pierimpact", deadline=None, derandomize=True)

@@ -27,7 +27,7 @@ def test_one_collision_is_the_numbers_of_truck_pier_and_speed():
     ("changes", "message"),
     [
         ({"truck": "truck"}, "truck must be a Truck, got str"),
-        ({"pier": 8e3}, "pier must be an EquivalentPier, got float"),
+        ({"pier": 8e3}, "pier must be an EquivalentPier or a BeamPier, got float"),
         ({"speed": 0.0}, "speed must be positive, got 0"),
         ({"speed": None}, "speed must be a number, got None"),
     ],

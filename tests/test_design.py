@@ -326,7 +326,7 @@ def test_nominal_height():
         ((TRUCK, PIER, math.inf), "speed must be finite, got inf"),
         ((TRUCK, PIER, SPEED, "rough"), "level must be one of short, long, got 'rough'"),
         (("truck", PIER, SPEED), "truck must be a Truck, got str"),
-        ((TRUCK, PierColumn, SPEED), "pier must be an EquivalentPier, got type"),
+        ((TRUCK, PierColumn, SPEED), "pier must be an EquivalentPier or a BeamPier, got type"),
     ],
 )
 def test_bad_input_of_one(arguments, message):

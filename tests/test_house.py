@@ -72,8 +72,9 @@ def test_python_of_the_readme_runs(capsys):
     readme = (HOUSE / "README.md").read_text(encoding="utf-8")
     for program in re.findall(r"```python\n(.*?)```", readme, re.DOTALL):
         exec(compile(program, "README.md", "exec"), {})
-    engine_and_cargo, governing = capsys.readouterr().out.strip().splitlines()
+    engine_and_cargo, member_forces, governing = capsys.readouterr().out.strip().splitlines()
     assert len(engine_and_cargo.split()) == 2
+    assert len(member_forces.split()) == 3
     assert governing.split()[1] in {"engine", "cargo"}
 
 

@@ -2,6 +2,6 @@
 
 `parameters` holds what strikes what; `regimes` the equations of motion and their changes;
 `coasting` covers uncoupled motion in closed form; `stepping` sums coupled motion as a Taylor series
-and ends each step at the first change of regime, which `series` locates; `groups` keeps many
-collisions side by side. Callers use `simulate`.
+and ends each step at the first change of regime, which `series` locates; `beam` does so with the
+modes of a beam; `groups` keeps many collisions side by side. Callers use `simulate`.
 """

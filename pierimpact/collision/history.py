@@ -15,6 +15,7 @@ from pierimpact.collision.regimes import LinearMotion, Position, State
 from pierimpact.collision.series import ARRAYS, FLOATS, TERMS
 from pierimpact.collision.stepping import BODY, ENGINE, PIER, expand, longest_step, rates
 from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.pier.member_forces import MemberForceHistory
 from pierimpact.vehicle.truck import Truck
 
 RecordedStep: TypeAlias = tuple[State, LinearMotion, float]  # start, equations, length [s]
@@ -86,8 +87,8 @@ class CollisionHistory:
 
     @property
     def pier(self) -> EquivalentPier:
-        """The pier."""
-        return self.collision.pier
+        """The pier as one degree of freedom."""
+        return self.collision.equivalent_pier
 
     @property
     def engine_peak(self) -> Peak:
@@ -131,7 +132,7 @@ class CollisionHistory:
     def time(self) -> Array:
         """Time after first touch, shape (n,) [s]."""
         starts = self._column(lambda state: state.time)
-        return self._flat(starts + self._lengths * FRACTIONS)
+        return self._flat(starts + self._lengths * self._fractions)
 
     @cached_property
     def pier_displacement(self) -> Array:
@@ -168,6 +169,11 @@ class CollisionHistory:
         """Reaction R = k_p x_p, shape (n,) [N]."""
         return self.pier.stiffness * self.pier_displacement
 
+    @property
+    def member_forces(self) -> MemberForceHistory | None:
+        """Shear and moment over the height of a beam; None for one degree of freedom."""
+        return None
+
     @cached_property
     def engine_force(self) -> Array:
         """Force F1 of spring 1, shape (n,) [N]."""
@@ -184,8 +190,8 @@ class CollisionHistory:
         # Where the body sticks the friction is what holds it.
         held_mass = self.truck.body_mass if self._friction_on_pier else 0.0
         held = -self.body_force - held_mass * self._flat(self._series(PIER, order=2))
-        stuck = self._flat(self._column(lambda state: state.stuck) + 0.0 * FRACTIONS)
-        return self._flat(self._motion.friction + 0.0 * FRACTIONS) + stuck * held
+        stuck = self._flat(self._column(lambda state: state.stuck) + 0.0 * self._fractions)
+        return self._flat(self._motion.friction + 0.0 * self._fractions) + stuck * held
 
     @cached_property
     def contact_force(self) -> Array:
@@ -210,14 +216,15 @@ class CollisionHistory:
     def energy(self) -> EnergyShares:
         """Where the truck's energy is at each time."""
         truck = self.truck
+        pier_kinetic, pier_elastic = self._pier_energy()
         return EnergyShares(
             kinetic=0.5
             * (
                 truck.engine_mass * self.engine_velocity**2
                 + truck.body_mass * self.body_velocity**2
-                + self.pier.mass * self.pier_velocity**2
-            ),
-            pier_elastic=0.5 * self.pier.stiffness * self.pier_displacement**2,
+            )
+            + pier_kinetic,
+            pier_elastic=pier_elastic,
             truck_elastic=0.5
             * (
                 self.engine_force**2 / truck.engine_spring.unloading_stiffness
@@ -249,7 +256,7 @@ class CollisionHistory:
             # The friction on a body that sticks to the road balances its spring.
             motion, stuck = self._motion, self._column(lambda state: state.stuck)
             impulse = impulse + self._accumulate(
-                (motion.friction - stuck * motion.intercept2) * self._lengths * FRACTIONS
+                (motion.friction - stuck * motion.intercept2) * self._lengths * self._fractions
                 - stuck * motion.slope2 * self._series(BODY, order=-1)
             )
         return float(np.max(np.abs(momentum + impulse - initial)) / initial)
@@ -259,6 +266,10 @@ class CollisionHistory:
         return self.truck.friction_on == "pier"
 
     # The arrays below have one row per piece and one column per fraction of it.
+
+    @property
+    def _fractions(self) -> Array:
+        return FRACTIONS
 
     @cached_property
     def _pieces(self) -> list[RecordedStep]:
@@ -297,11 +308,12 @@ class CollisionHistory:
     def _lengths(self) -> Array:
         return np.array([[length] for _, _, length in self._pieces])
 
-    def _series(self, which: int, order: int = 0, fractions: Array = FRACTIONS) -> Array:
+    def _series(self, which: int, order: int = 0, fractions: Array | None = None) -> Array:
         """Return a motion's derivative of an order, or for −1 its integral from a piece's start.
 
         Shape (pieces, fractions).
         """
+        fractions = self._fractions if fractions is None else fractions
         terms = self._terms[which][:, max(order, 0) :]
         powers = np.arange(terms.shape[1])[:, None] - min(order, 0)
         factorials = np.array([[math.factorial(n)] for n in powers[:, 0]], dtype=float)
@@ -328,14 +340,29 @@ class CollisionHistory:
         path = self._series(BODY) + (0.0 if self._friction_on_pier else self._series(PIER))
         return self._accumulate(self._motion.friction * (path - path[:, :1]))
 
+    def _pier_energy(self) -> tuple[Array, Array]:
+        """Return kinetic and elastic energy of the pier."""
+        pier = self.pier
+        return (
+            0.5 * pier.mass * self.pier_velocity**2,
+            0.5 * pier.stiffness * self.pier_displacement**2,
+        )
+
     def _damping_work(self) -> Array:
+        def square(fractions: Array) -> Array:
+            return np.asarray(self._series(PIER, 1, fractions) ** 2)
+
+        return self.pier.damping * self._integrate(square)
+
+    def _integrate(self, rate: Callable[[Array], Array]) -> Array:
+        """Integrate a rate, given at fractions of the pieces, by Gauss quadrature."""
         nodes, weights = np.polynomial.legendre.leggauss(6)
-        width = FRACTIONS[1]
-        places = (FRACTIONS[:-1, None] + 0.5 * width * (1.0 + nodes)).ravel()
-        squares = self._series(PIER, order=1, fractions=places) ** 2
-        pieces = squares.reshape(len(squares), -1, len(nodes)) @ (0.5 * width * weights)
-        work = np.cumsum(pieces, axis=1) * self._lengths
-        return self.pier.damping * self._accumulate(np.pad(work, ((0, 0), (1, 0))))
+        width = self._fractions[1]
+        places = (self._fractions[:-1, None] + 0.5 * width * (1.0 + nodes)).ravel()
+        values = rate(places)
+        pieces = values.reshape(len(values), -1, len(nodes)) @ (0.5 * width * weights)
+        sums = np.cumsum(pieces, axis=1) * self._lengths
+        return self._accumulate(np.pad(sums, ((0, 0), (1, 0))))
 
 
 def _known(time: float) -> float | None:

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from pierimpact.checks import InputError, positive, positive_array, ratio_array
 from pierimpact.collision.groups import CHUNK, select
 from pierimpact.collision.series import Flag, Real
+from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.equivalent import EquivalentPier, damping_coefficient
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
@@ -52,7 +53,7 @@ class Collision:
     ----------
     truck : Truck
         The truck.
-    pier : EquivalentPier
+    pier : EquivalentPier or BeamPier
         The pier.
     speed : float
         Speed of the truck at first touch [m/s].
@@ -64,14 +65,16 @@ class Collision:
     """
 
     truck: Truck
-    pier: EquivalentPier
+    pier: EquivalentPier | BeamPier
     speed: float
 
     def __post_init__(self) -> None:
         if not isinstance(self.truck, Truck):
             raise InputError(f"truck must be a Truck, got {type(self.truck).__name__}")
-        if not isinstance(self.pier, EquivalentPier):
-            raise InputError(f"pier must be an EquivalentPier, got {type(self.pier).__name__}")
+        if not isinstance(self.pier, EquivalentPier | BeamPier):
+            raise InputError(
+                f"pier must be an EquivalentPier or a BeamPier, got {type(self.pier).__name__}"
+            )
         object.__setattr__(self, "speed", positive("speed", self.speed))
 
     @property
@@ -79,10 +82,15 @@ class Collision:
         """Kinetic energy ½ (m1 + m2) V² of the truck at first touch [J]."""
         return 0.5 * self.truck.mass * self.speed**2
 
+    @property
+    def equivalent_pier(self) -> EquivalentPier:
+        """The pier as one degree of freedom."""
+        return self.pier.equivalent if isinstance(self.pier, BeamPier) else self.pier
+
     @cached_property
     def parameters(self) -> Parameters:
-        """The same as floats."""
-        pier = self.pier
+        """The same as floats, the pier as one degree of freedom."""
+        pier = self.equivalent_pier
         return _parameters(_row(self.truck), pier.mass, pier.stiffness, pier.damping, self.speed)
 
 

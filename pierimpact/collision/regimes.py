@@ -199,9 +199,17 @@ def raise_peak(state: State, xp: Real, time: Real, counts: Flag, ops: Ops) -> St
 
 
 def change_regime(
-    parameters: Parameters, state: State, motion: LinearMotion, event: Real, ops: Ops
+    parameters: Parameters,
+    state: State,
+    motion: LinearMotion,
+    resistance: Real,
+    event: Real,
+    ops: Ops,
 ) -> State:
-    """Return the state once `event` has ended the regime of `motion`."""
+    """Return the state once `event` has ended the regime of `motion`.
+
+    The `resistance` is the force of the pier's spring and damper [N].
+    """
     where = ops.where
     changes = event != NO_EVENT
     if not ops.some(changes):
@@ -209,7 +217,7 @@ def change_regime(
     position, time = state.position, state.time
     engine = next_branch(parameters.engine, state.engine, event, position.d1, ops)
     body = next_branch(parameters.body, state.body, event - 3, position.d2, ops)
-    slip, stuck, u2 = update_friction(parameters, motion, state, body, event, ops)
+    slip, stuck, u2 = update_friction(parameters, motion, resistance, state, body, event, ops)
     meets_engine = (engine.regime == STEEP) & (state.engine_contact != state.engine_contact)
     meets_cargo = (body.regime == STEEP) & (state.cargo_contact != state.cargo_contact)
     return state._replace(
@@ -239,7 +247,13 @@ def next_branch(spring: Spring, line: Branch, event: Real, crush: Real, ops: Ops
 
 
 def update_friction(
-    parameters: Parameters, motion: LinearMotion, state: State, body: Branch, event: Real, ops: Ops
+    parameters: Parameters,
+    motion: LinearMotion,
+    resistance: Real,
+    state: State,
+    body: Branch,
+    event: Real,
+    ops: Ops,
 ) -> tuple[Real, Flag, Real]:
     """Return the friction's direction, whether it sticks, and the rate of δ2, after `event`."""
     position = state.position
@@ -250,9 +264,8 @@ def update_friction(
     cs, m2 = parameters.friction_force, parameters.body.mass
     F1, F2 = motion.forces(position)
     # The force that would hold the body to the road, or to the pier in their common motion.
-    resultant = F1 - parameters.pier_stiffness * position.xp - parameters.pier_damping * position.vp
     share = where(parameters.on_pier, m2 / (m2 + parameters.pier_mass), 0.0)
-    holding = -F2 - share * resultant
+    holding = -F2 - share * (F1 - resistance)
 
     stops = (event == FORWARD) & negate(state.stuck)
     sticks = stops & (holding <= cs) & (holding >= -cs)

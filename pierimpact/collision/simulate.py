@@ -8,10 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import not_negative
+from pierimpact.collision.beam import ModalMotion, propagate_beam
+from pierimpact.collision.beam_history import BeamCollisionHistory
 from pierimpact.collision.history import CollisionHistory, RecordedStep
 from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.collision.regimes import LinearMotion, State
 from pierimpact.collision.stepping import propagate, propagate_all
+from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
 
@@ -19,7 +22,7 @@ SHORTEST = 1e-13  # step recorded; shorter ones are round-off [s]
 
 
 def simulate(
-    truck: Truck, pier: EquivalentPier, speed: float, duration: float = 0.0
+    truck: Truck, pier: EquivalentPier | BeamPier, speed: float, duration: float = 0.0
 ) -> CollisionHistory:
     """Simulate one collision.
 
@@ -29,12 +32,13 @@ def simulate(
         As in `Collision`.
     duration : float, optional
         Time that the history covers at least [s]. It always goes on until no later instant can
-        raise a peak or bring a first contact.
+        raise a peak or bring a first contact, and a beam has vibrated for a period of its first
+        mode since the last change.
 
     Returns
     -------
     CollisionHistory
-        Peaks, contact times and time histories.
+        Peaks, contact times and time histories; with a beam, member forces.
 
     Raises
     ------
@@ -42,6 +46,8 @@ def simulate(
         As in `Collision`, and when the duration is negative.
     """
     collision, duration = Collision(truck, pier, speed), not_negative("duration", duration)
+    if isinstance(collision.pier, BeamPier):
+        return _simulate_beam(collision, collision.pier, duration)
     steps: list[RecordedStep] = []
 
     def record(state: State, motion: LinearMotion, length: float) -> None:
@@ -50,6 +56,27 @@ def simulate(
 
     end = propagate(collision.parameters, duration, record)
     return CollisionHistory(collision=collision, steps=steps, end=end)
+
+
+def _simulate_beam(collision: Collision, beam: BeamPier, duration: float) -> BeamCollisionHistory:
+    steps: list[RecordedStep] = []
+    modal_steps: list[tuple[ModalMotion, NDArray[np.float64]]] = []
+
+    def record(
+        state: State,
+        motion: LinearMotion,
+        length: float,
+        modal: ModalMotion,
+        y: NDArray[np.float64],
+    ) -> None:
+        if length > SHORTEST:
+            steps.append((state, motion, length))
+            modal_steps.append((modal, y))
+
+    end = propagate_beam(collision, beam, duration, record)
+    return BeamCollisionHistory(
+        collision=collision, steps=steps, end=end, beam=beam, modal_steps=modal_steps
+    )
 
 
 class PeakReactions(NamedTuple):

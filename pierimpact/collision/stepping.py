@@ -175,14 +175,17 @@ def trial_step(
 
 
 def may_rise(
-    functions: list[EventFunction], series: Series, spread: list[Real], h: Real, ops: Ops
+    functions: list[EventFunction], series: Series, peak: Real, h: Real, ops: Ops
 ) -> list[tuple[EventFunction, Flag]]:
     """Return the functions per step, each with whether it may rise above zero.
 
-    No rate departs from its start by more than `spread`, the sum of its further terms, and no
-    displacement from its tangent by more than half of that.
+    Added is the maximum of the pier's displacement, which matters only where it may exceed the
+    `peak` so far.
     """
     where = ops.where
+    # No rate departs from its start by more than the sum of its further terms, and no displacement
+    # from its tangent by more than half of that.
+    spread = [ops.fixed(END, ops.sizes(terms[2:])) for terms in series]
     flagged = []
     for function in functions:
         event, order, parts, most = function
@@ -197,28 +200,17 @@ def may_rise(
                 most = most + weight * series[which][0] + where(ahead > 0.0, ahead, 0.0)
                 most = most + 0.5 * abs(weight) * spread[which]
         flagged.append((function, most > 0.0))
+    xp, vp = series[PIER][0], abs(series[PIER][1])
+    may_peak = (spread[PIER] > vp) & (xp + vp + spread[PIER] > peak)
+    flagged.append((EventFunction(PIER_MAXIMUM, 1, ((0.0 * h - 1.0, PIER),), 0.0 * h), may_peak))
     return flagged
 
 
-def advance(
-    parameters: Parameters, state: State, motion: LinearMotion, ops: Ops
-) -> tuple[State, Real]:
-    """Return the state after one step, at most up to the first change, and the step's length."""
+def first_event(
+    flagged: list[tuple[EventFunction, Flag]], series: Series, state: State, h: Real, ops: Ops
+) -> tuple[State, Real, Real]:
+    """Return the state with its peak raised, the event that ends the step, and at what fraction."""
     where = ops.where
-    functions = event_functions(parameters, state, motion, ops)
-    initial = rates(motion, state.position)
-    longest = longest_step(motion, ops)
-    h = trial_step(longest, initial, functions, ops)
-    count = terms_needed(ops.largest(h / longest))
-    series = expand(motion, initial, h, count, ops)
-    spread = [ops.fixed(END, ops.sizes(terms[2:])) for terms in series]
-    flagged = may_rise(functions, series, spread, h, ops)
-
-    # A maximum of the pier's displacement matters only where it may exceed the peak so far.
-    xp, vp = series[PIER][0], abs(series[PIER][1])
-    may_peak = (spread[PIER] > vp) & (xp + vp + spread[PIER] > state.peak(ops))
-    flagged.append((EventFunction(PIER_MAXIMUM, 1, ((0.0 * h - 1.0, PIER),), 0.0 * h), may_peak))
-
     event, theta, maximum = NO_EVENT + 0.0 * h, 1.0 + 0.0 * h, NEVER + 0.0 * h
     for which, fraction, happens in ops.rises(flagged, series):
         if which == PIER_MAXIMUM:
@@ -229,30 +221,45 @@ def advance(
             event = where(sooner, where(happens, which, NO_EVENT), event)
     passed = maximum < theta
     if ops.some(passed):
-        weights = ops.weights(where(passed, maximum, 0.0), count)
+        weights = ops.weights(where(passed, maximum, 0.0), len(series[PIER]))
         time = state.time + maximum * h
         state = raise_peak(state, ops.dot(weights, series[PIER]), time, passed, ops)
-    length = theta * h
-    state = state._replace(time=state.time + length, position=evaluate(series, h, theta, ops))
-    state = raise_peak(state, state.position.xp, state.time, True, ops)
-    return change_regime(parameters, state, motion, event, ops), length
+    return state, event, theta
 
 
-def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
-    """Say whether no later instant can raise a peak or bring a first contact.
+def advance(
+    parameters: Parameters, state: State, motion: LinearMotion, ops: Ops
+) -> tuple[State, Real]:
+    """Return the state after one step, at most up to the first change, and the step's length."""
+    functions = event_functions(parameters, state, motion, ops)
+    initial = rates(motion, state.position)
+    longest = longest_step(motion, ops)
+    h = trial_step(longest, initial, functions, ops)
+    series = expand(motion, initial, h, terms_needed(ops.largest(h / longest)), ops)
+    flagged = may_rise(functions, series, state.peak(ops), h, ops)
+    state, event, theta = first_event(flagged, series, state, h, ops)
+    length, position = theta * h, evaluate(series, h, theta, ops)
+    state = state._replace(time=state.time + length, position=position)
+    state = raise_peak(state, position.xp, state.time, True, ops)
+    resistance = parameters.pier_stiffness * position.xp + parameters.pier_damping * position.vp
+    return change_regime(parameters, state, motion, resistance, event, ops), length
 
-    Either the energy that can still reach the pier does not suffice, or both bodies have separated
-    from the pier and it has vibrated freely for a whole period. The pier can only push a body
-    back, so that the energy of a body moving back does not count, unless friction on the pier can
-    drag it forward.
+
+def prospects(
+    parameters: Parameters, state: State, pier_energy: Real, ops: Ops
+) -> tuple[Flag, Flag]:
+    """Say whether no peak can be raised and no first contact come, and whether the truck has left.
+
+    Nothing can come where the energy that can still reach the pier does not suffice. The pier can
+    only push a body back, so that the energy of a body moving back does not count, unless friction
+    on the pier can drag it forward. The truck has left where both bodies have separated from the
+    pier.
     """
     where = ops.where
     engine, body, on_pier = parameters.engine, parameters.body, parameters.on_pier
-    pier_mass, pier_stiffness = parameters.pier_mass, parameters.pier_stiffness
-    d1, u1, d2, u2, xp, vp = state.position
+    d1, u1, d2, u2, _, vp = state.position
     v1, v2 = u1 + vp, u2 + vp
-    energy = 0.5 * (pier_stiffness * xp**2 + pier_mass * vp**2)
-    energy = energy + where(v1 > 0.0, 0.5 * engine.mass * v1**2, 0.0)
+    energy = pier_energy + where(v1 > 0.0, 0.5 * engine.mass * v1**2, 0.0)
     energy = energy + where((v2 > 0.0) | on_pier, 0.5 * body.mass * v2**2, 0.0)
     no_contact: Flag = True
     for spring, line, d, contact in (
@@ -266,14 +273,25 @@ def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
         no_contact = no_contact & ((contact == contact) | (needed > energy))
     peak = state.peak(ops)
     peak = where(peak > 0.0, peak, 0.0)
-    no_peak = 2.0 * energy <= pier_stiffness * peak**2 * (1.0 + 1e-9)
+    no_peak = 2.0 * energy <= parameters.pier_stiffness * peak**2 * (1.0 + 1e-9)
 
-    vibrating_mass = pier_mass + where(on_pier, body.mass, 0.0)
-    period = 2.0 * math.pi * ops.lib.sqrt(vibrating_mass / pier_stiffness)
     engine_left = (state.engine.regime == FREE) & (v1 <= 0.0)
     body_left = ((state.body.regime == FREE) & (v2 <= 0.0)) | state.stuck
-    vibrated = engine_left & body_left & (state.time > state.last_change + period)
-    return (no_contact & no_peak) | vibrated
+    return no_contact & no_peak, engine_left & body_left
+
+
+def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
+    """Say whether no later instant can raise a peak or bring a first contact.
+
+    Either the energy does not suffice, or the truck has left and the pier has vibrated freely for
+    a whole period.
+    """
+    mass, stiffness = parameters.pier_mass, parameters.pier_stiffness
+    energy = 0.5 * (stiffness * state.position.xp**2 + mass * state.position.vp**2)
+    decided, left = prospects(parameters, state, energy, ops)
+    vibrating_mass = mass + ops.where(parameters.on_pier, parameters.body.mass, 0.0)
+    period = 2.0 * math.pi * ops.lib.sqrt(vibrating_mass / stiffness)
+    return decided | (left & (state.time > state.last_change + period))
 
 
 def propagate(

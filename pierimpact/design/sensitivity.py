@@ -114,8 +114,9 @@ def _reactions(collisions: Mapping[str, Mapping[float, Collision]]) -> dict[str,
     """Return the variations by name, None for those without a value; all in one go."""
     together = [collision for part in collisions.values() for collision in part.values()]
     trucks = [collision.truck for collision in together]
-    piers = [(c.pier.mass, c.pier.stiffness, c.pier.damping_ratio, c.speed) for c in together]
-    mass, stiffness, ratio, speed = np.array(piers).T
+    piers = [collision.equivalent_pier for collision in together]
+    mass, stiffness, ratio = np.array([(p.mass, p.stiffness, p.damping_ratio) for p in piers]).T
+    speed = [collision.speed for collision in together]
     peaks = peak_reactions(trucks, mass, stiffness, ratio, speed)
     design = design_reactions(trucks, mass, stiffness, ratio, speed, level="long")
     results = (peaks.engine, peaks.cargo, design.engine, design.cargo)

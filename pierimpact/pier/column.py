@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import polynomial
@@ -9,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, not_negative, number, one_of, positive
 from pierimpact.handcalc import Calculation, Real
+from pierimpact.pier.beam import BeamPier, Part, beam_pier
 from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass
 from pierimpact.pier.member_forces import MemberForces
 from pierimpact.pier.sections import Section
@@ -127,6 +129,28 @@ class PierColumn:
             Mass m_p, stiffness k_p and damping ratio ζ.
         """
         return self.struck_at(impact_height).equivalent(damping_ratio)
+
+    def beam(
+        self, impact_height: float, damping_ratio: float = 0.05, modes: int | None = None
+    ) -> BeamPier:
+        """Return the pier as a beam that vibrates in its natural modes.
+
+        Parameters
+        ----------
+        impact_height : float
+            Nominal impact height z_n [m].
+        damping_ratio : float, optional
+            Fraction ζ of critical damping of each mode [-].
+        modes : int, optional
+            As in `pierimpact.pier.beam.beam_pier`.
+        """
+        equivalent = self.equivalent(impact_height, damping_ratio)
+        joints = np.unique([0.0, float(impact_height), self.height]).tolist()
+        rotary_inertia = self.density * self.section.second_moment
+        uniform = (self.flexural_rigidity, self.shear_rigidity, self.mass_per_length)
+        parts = [Part(*stretch, *uniform, rotary_inertia) for stretch in pairwise(joints)]
+        struck = joints.index(float(impact_height))
+        return beam_pier(parts, (self.base, self.top), struck, equivalent, modes)
 
     def member_forces(self, reaction: float, impact_height: float) -> MemberForces:
         """Support reactions, shear and moment under the static force R at the impact height.

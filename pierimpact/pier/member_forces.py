@@ -1,6 +1,7 @@
-"""Support reactions, shear and moment of a column under a force at the impact height."""
+"""Shear and moment of a pier: under a static force at the impact height, and during a collision."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -92,6 +93,46 @@ class MemberForces:
         corner = _first_largest(self.moment)
         height = float(self.z[corner])
         return Extreme(float(self.moment[corner]), height, height)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MemberForceHistory:
+    """Shear and moment of a beam in time and over its height, and their envelopes.
+
+    The sign convention is that of `MemberForces`.
+
+    Parameters
+    ----------
+    z : ndarray, shape (m,)
+        Heights from base to top; the impact height is there twice, first for the beam below it,
+        then for that above [m].
+    shear, moment : ndarray, shape (n, m)
+        Shear V [N] and moment M [N m] at the n times of the history.
+    """
+
+    z: NDArray[np.float64]
+    shear: NDArray[np.float64] = field(repr=False)
+    moment: NDArray[np.float64] = field(repr=False)
+
+    @cached_property
+    def largest_shear(self) -> NDArray[np.float64]:
+        """Largest shear at each height, shape (m,) [N]."""
+        return np.asarray(self.shear.max(axis=0))
+
+    @cached_property
+    def smallest_shear(self) -> NDArray[np.float64]:
+        """Smallest (most negative) shear at each height, shape (m,) [N]."""
+        return np.asarray(self.shear.min(axis=0))
+
+    @cached_property
+    def largest_moment(self) -> NDArray[np.float64]:
+        """Largest moment at each height, shape (m,) [N m]."""
+        return np.asarray(self.moment.max(axis=0))
+
+    @cached_property
+    def smallest_moment(self) -> NDArray[np.float64]:
+        """Smallest (most negative) moment at each height, shape (m,) [N m]."""
+        return np.asarray(self.moment.min(axis=0))
 
 
 def _first_largest(values: NDArray[np.float64]) -> int:

@@ -1,0 +1,169 @@
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from generated_columns import GENERATED, struck_columns
+from hypothesis import given
+
+from pierimpact import CircularSection, InputError, PierColumn
+from pierimpact.pier.beam import Part, beam_pier
+
+
+def column(height, diameter, base="fixed", top="pinned"):
+    return PierColumn(
+        height=height,
+        section=CircularSection(diameter=diameter),
+        elastic_modulus=28e9,
+        density=2450.0,
+        base=base,
+        top=top,
+    )
+
+
+# Closed forms.
+
+
+@pytest.mark.parametrize(
+    ("base", "top", "roots"),
+    [
+        ("fixed", "free", [1.87510407, 4.69409113, 7.85475744, 10.99554073]),
+        ("free", "fixed", [1.87510407, 4.69409113, 7.85475744, 10.99554073]),
+        ("fixed", "pinned", [3.92660231, 7.06858275, 10.21017612]),
+        ("fixed", "fixed", [4.73004074, 7.85320462, 10.99560784]),
+        ("pinned", "pinned", [math.pi, 2.0 * math.pi, 3.0 * math.pi]),
+    ],
+)
+def test_slender_column_has_the_frequencies_of_eulers_beam(base, top, roots):
+    slender = column(500.0, 1.0, base, top)
+    found = slender.beam(200.0, modes=len(roots)).frequencies
+    per_length = math.sqrt(slender.flexural_rigidity / slender.mass_per_length) / 500.0**2
+    expected = np.square(roots) * per_length / (2.0 * math.pi)
+    assert found == pytest.approx(expected, rel=1e-4)
+
+
+def timoshenko_pinned(column, modes):
+    """Both branches of the pinned–pinned beam, and the mode of uniform rotation [rad/s]."""
+    inertia = column.density * column.section.second_moment
+    EI, kGA, m = column.flexural_rigidity, column.shear_rigidity, column.mass_per_length
+    k = np.arange(1, modes + 1) * math.pi / column.height
+    sum_of_roots = kGA / inertia + (kGA / m + EI / inertia) * k**2
+    product = kGA * EI * k**4 / (m * inertia)
+    lower = 2.0 * product / (sum_of_roots + np.sqrt(sum_of_roots**2 - 4.0 * product))
+    squares = np.concatenate((lower, product / lower, [kGA / inertia]))
+    return np.sqrt(np.sort(squares)[:modes])
+
+
+@pytest.mark.parametrize(("height", "diameter"), [(3.0, 1.5), (6.0, 1.0), (20.0, 1.2)])
+@pytest.mark.parametrize("impact_height", [0.4, 1.2, 2.9])
+def test_pinned_column_has_timoshenkos_frequencies(height, diameter, impact_height):
+    pinned = column(height, diameter, "pinned", "pinned")
+    found = 2.0 * math.pi * pinned.beam(impact_height, modes=40).frequencies
+    assert found == pytest.approx(timoshenko_pinned(pinned, 40), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("ends", "quarter_waves"),
+    [
+        (("fixed", "free"), [1.0, 3.0, 5.0, 7.0]),
+        (("fixed", "pinned"), [2.0, 4.0, 6.0, 8.0]),
+        (("fixed", "fixed"), [2.0, 4.0, 6.0, 8.0]),
+    ],
+)
+def test_rigid_in_flexure_it_is_a_shear_beam(ends, quarter_waves):
+    length, stiff = 4.0, column(4.0, 1.0)
+    G_A, m = stiff.shear_rigidity, stiff.mass_per_length
+    parts = [
+        Part(bottom, top, 1e9 * stiff.flexural_rigidity, G_A, m, 1.0)
+        for bottom, top in ((0.0, 1.0), (1.0, length))
+    ]
+    beam = beam_pier(parts, ends, 1, stiff.equivalent(1.0), modes=4)
+    expected = np.array(quarter_waves) * math.sqrt(G_A / m) / (4.0 * length)
+    assert beam.frequencies == pytest.approx(expected, rel=1e-6)
+
+
+def test_frequencies_do_not_depend_on_the_place_of_the_impact():
+    low, high = (column(7.0, 1.1, "fixed", "free").beam(z, modes=30) for z in (0.9, 7.0))
+    assert low.frequencies == pytest.approx(high.frequencies, rel=1e-10)
+
+
+def test_parts_of_one_section_are_one_beam():
+    whole = column(6.0, 1.0)
+    rigidities = (whole.flexural_rigidity, whole.shear_rigidity, whole.mass_per_length, 120.0)
+    one, several = (
+        beam_pier(
+            [Part(bottom, top, *rigidities) for bottom, top in pairwise(joints)],
+            ("fixed", "pinned"),
+            struck,
+            whole.equivalent(2.0),
+            modes=12,
+        )
+        for joints, struck in (([0.0, 2.0, 6.0], 1), ([0.0, 0.5, 2.0, 3.0, 6.0], 2))
+    )
+    assert several.frequencies == pytest.approx(one.frequencies, rel=1e-10)
+    for beam in (one, several):
+        flexibility = np.sum((beam.impact_deflection / beam.circular_frequencies) ** 2)
+        assert 1.0 / flexibility == pytest.approx(whole.equivalent(2.0).stiffness, rel=1e-12)
+    assert several.effective_mass == pytest.approx(one.effective_mass, rel=1e-6)
+
+
+# A static force.
+
+
+@GENERATED
+@given(struck_columns())
+def test_a_static_force_gives_the_static_member_forces(struck):
+    column, impact_height = struck
+    beam = column.beam(impact_height, modes=5)
+    coordinates = beam.impact_deflection / beam.circular_frequencies**2  # under a unit force
+    flexibility = coordinates @ beam.impact_deflection
+    assert 1.0 / flexibility == pytest.approx(beam.equivalent.stiffness, rel=1e-8)
+    deflection = coordinates @ beam.deflection
+    expected = column.struck_at(impact_height).deflection(beam.z)
+    assert deflection == pytest.approx(expected, rel=0.0, abs=1e-8 * np.abs(expected).max())
+    forces = column.member_forces(1.0, impact_height)
+    size = 1e-6 * max(1.0, impact_height, column.height - impact_height)
+    # Just above the base, on both sides of the impact, and just below the top.
+    at_impact = np.flatnonzero(beam.z == impact_height)
+    corners = [0, at_impact[0], at_impact[-1], len(beam.z) - 1]
+    shear, moment = (coordinates @ field for field in (beam.shear, beam.moment))
+    if len(at_impact) == 2:
+        assert shear[corners] == pytest.approx(forces.shear, rel=0.0, abs=1e-6)
+    assert moment[corners] == pytest.approx(forces.moment, rel=0.0, abs=size)
+
+
+def test_shapes_are_those_of_one_beam_wherever_it_is_struck():
+    """Reciprocity: a force at one height moves another as a force there moves the first."""
+    fixed = column(6.0, 1.0, "fixed", "free")
+    low, high = fixed.beam(1.5, modes=25), fixed.beam(3.0, modes=25)
+
+    def receptance(beam, height, frequency):
+        shape = beam.deflection[:, np.argmin(np.abs(beam.z - height))]
+        squares = beam.circular_frequencies**2
+        damped = squares * (1.0 + 0.1j * frequency / beam.circular_frequencies)
+        return np.sum(shape * beam.impact_deflection / (damped - frequency**2))
+
+    for frequency in (0.0, 100.0, 600.0, 2000.0):
+        across, back = receptance(low, 3.0, frequency), receptance(high, 1.5, frequency)
+        assert across == pytest.approx(back, rel=1e-4)
+
+
+def test_modes_are_kept_as_far_as_they_matter():
+    short, tall = column(4.0, 1.2).beam(1.2), column(12.0, 1.2).beam(1.2)
+    assert 8 <= len(short.frequencies) < 0.5 * len(tall.frequencies)
+    assert tall.frequencies[-2] < 2500.0 <= tall.frequencies[-1]
+    assert len(tall.circular_frequencies) == len(tall.frequencies) + 1  # the residual
+    assert tall.equivalent == column(12.0, 1.2).equivalent(1.2)
+
+
+@pytest.mark.parametrize("modes", [0, -3, 2.5])
+def test_modes_are_counted(modes):
+    with pytest.raises(InputError, match=r"modes must be a whole number above zero, got"):
+        column(5.0, 1.0).beam(1.2, modes=modes)
+
+
+def test_impact_must_hit_the_column():
+    with pytest.raises(InputError, match="impact_height must be above 0 m"):
+        column(5.0, 1.0).beam(6.0)
+    with pytest.raises(InputError, match="damping_ratio must be below 1"):
+        column(5.0, 1.0).beam(1.2, damping_ratio=1.0)
