@@ -87,6 +87,16 @@ def test_frequencies_do_not_depend_on_the_place_of_the_impact():
     assert low.frequencies == pytest.approx(high.frequencies, rel=1e-10)
 
 
+@pytest.mark.parametrize("top", ["pinned", "fixed", "free"])
+@pytest.mark.parametrize("distance", [1e-3, 1e-6, 1e-9])
+def test_it_is_as_stiff_struck_close_to_a_support(top, distance):
+    beam = column(5.0, 0.914, top=top).beam(distance)
+    flexibility = np.sum((beam.impact_deflection / beam.circular_frequencies) ** 2)
+    assert flexibility * beam.equivalent.stiffness == pytest.approx(1.0, rel=1e-9)
+    frequencies = column(5.0, 0.914, top=top).beam(2.0).frequencies
+    np.testing.assert_allclose(beam.frequencies[:8], frequencies[:8], rtol=1e-6)
+
+
 def test_parts_of_one_section_are_one_beam():
     whole = column(6.0, 1.0)
     rigidities = (whole.flexural_rigidity, whole.shear_rigidity, whole.mass_per_length, 120.0)
@@ -156,7 +166,7 @@ def test_modes_are_kept_as_far_as_they_matter():
     assert tall.equivalent == column(12.0, 1.2).equivalent(1.2)
 
 
-@pytest.mark.parametrize("modes", [0, -3, 2.5])
+@pytest.mark.parametrize("modes", [0, -3, 2.5, True])
 def test_modes_are_counted(modes):
     with pytest.raises(InputError, match=r"modes must be a whole number above zero, got"):
         column(5.0, 1.0).beam(1.2, modes=modes)

@@ -1,7 +1,8 @@
 """The pier as a beam: natural modes of a Timoshenko beam, and the flexibility they leave out."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from numbers import Integral
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -64,12 +65,12 @@ class BeamPier:
     """
 
     equivalent: EquivalentPier
-    circular_frequencies: Array
-    impact_deflection: Array
-    z: Array
-    deflection: Array
-    shear: Array
-    moment: Array
+    circular_frequencies: Array = field(repr=False)
+    impact_deflection: Array = field(repr=False)
+    z: Array = field(repr=False)
+    deflection: Array = field(repr=False)
+    shear: Array = field(repr=False)
+    moment: Array = field(repr=False)
 
     @property
     def frequencies(self) -> Array:
@@ -116,7 +117,8 @@ def beam_pier(
     InputError
         When `modes` is not a whole number above zero.
     """
-    if modes is not None and not (isinstance(modes, int) and modes > 0):
+    whole = isinstance(modes, Integral) and not isinstance(modes, bool)
+    if modes is not None and not (whole and modes > 0):
         raise InputError(f"modes must be a whole number above zero, got {modes!r}")
     highest, count = 2.0 * np.pi * HIGHEST_FREQUENCY, modes or FEWEST_MODES
     elements = Elements(parts, ends, count)
@@ -177,7 +179,8 @@ class Elements:
         # The stiffness is factorised rather than the mass: the lowest modes have least round-off.
         inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
         squares, vectors = np.linalg.eigh(inverse @ mass @ inverse.T)
-        omega = 1.0 / np.sqrt(squares[::-1])
+        # Of the highest modes of a short element nothing but round-off may be left.
+        omega = 1.0 / np.sqrt(np.maximum(squares[::-1], np.finfo(float).eps * squares[-1]))
         shapes = np.zeros((len(self.moves), len(omega)))
         shapes[self.moves] = inverse.T @ vectors[:, ::-1] * omega
         return omega, shapes
