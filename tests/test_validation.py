@@ -106,7 +106,7 @@ def test_tables_outside_the_domain(validation):
     assert beyond["Damping 0–2 %, short"]["1st percentile"] < 0.88
     assert beyond["Damping 0–2 %, long"]["1st percentile"] > 0.9
     assert beyond["Damping 7–20 %, long"]["1st percentile"] > 0.93
-    assert beyond["Cargo four times as near, long"]["1st percentile"] < 0.8
+    assert beyond["Body plateau length reduced to a quarter, long"]["1st percentile"] < 0.8
     for speed in ("30–50", "110–160"):
         assert 0.98 < beyond[f"Speed {speed} km/h, long"]["Mean"] < 1.06
 
