@@ -128,7 +128,7 @@ def fixed_pinned(H, z, y, EI, GA):
     delta10 = z**2 * (2 * H + y) / (6 * EI) + z / GA  # flexure and shear
     delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
     Rt = delta10 / delta11  # no displacement at the released end
-    Rb = (y * (3 * H**2 - y**2) / (6 * EI) + y / GA) / delta11  # equilibrium
+    Rb = 1 / delta11 * (y * (3 * H**2 - y**2) / (6 * EI) + y / GA)  # equilibrium: both add up to 1
     Mt = 0  # pinned top
     Mb = -z * y * H * (H + y) / (6 * EI * delta11)  # equilibrium
     Mn = Rt * y  # equilibrium
@@ -146,7 +146,7 @@ def pinned_fixed(H, z, y, EI, GA):
     delta10 = y**2 * (2 * H + z) / (6 * EI) + y / GA  # flexure and shear
     delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
     Rb = delta10 / delta11  # no displacement at the released end
-    Rt = (z * (3 * H**2 - z**2) / (6 * EI) + z / GA) / delta11  # equilibrium
+    Rt = 1 / delta11 * (z * (3 * H**2 - z**2) / (6 * EI) + z / GA)  # equilibrium: both add up to 1
     Mb = 0  # pinned base
     Mt = -z * y * H * (H + z) / (6 * EI * delta11)  # equilibrium
     Mn = Rb * z  # equilibrium
@@ -166,9 +166,9 @@ def fixed_fixed(H, z, y, EI, GA):
     )  # flexure and shear; the released end does not rotate
     delta11 = H**3 / (12 * EI) + H / GA  # flexure and shear; the released end does not rotate
     Rt = delta10 / delta11  # no displacement at the released end
-    Rb = (y**2 * (H + 2 * z) / (12 * EI) + y / GA) / delta11  # equilibrium
-    Mt = -z * y * (z * H / (12 * EI) + 1 / (2 * GA)) / delta11  # no rotation at the top
-    Mb = -z * y * (y * H / (12 * EI) + 1 / (2 * GA)) / delta11  # equilibrium
+    Rb = 1 / delta11 * (y**2 * (H + 2 * z) / (12 * EI) + y / GA)  # equilibrium: both add up to 1
+    Mt = -z * y / delta11 * (z * H / (12 * EI) + 1 / (2 * GA))  # no rotation at the top
+    Mb = -z * y / delta11 * (y * H / (12 * EI) + 1 / (2 * GA))  # equilibrium
     Mn = Mb + Rb * z  # equilibrium
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
