@@ -13,6 +13,31 @@ would lose them where the impact is close to an end, and the far shape with them
 from pierimpact.handcalc import Calculation
 
 
+def propped(z, y, H, EI, GA):
+    """Return the forces where one end is fixed, and the other, pinned, is released and put back.
+
+    The impact is z from the fixed and y from the pinned end. Deflections of the released end,
+    forces at the pinned and the fixed end, moments at the fixed end and at the impact.
+    """
+    delta10 = z**2 * (2 * H + y) / (6 * EI) + z / GA  # flexure and shear
+    delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
+    Rp = delta10 / delta11  # no displacement at the released end
+    Rf = 1 / delta11 * (y * (3 * H**2 - y**2) / (6 * EI) + y / GA)  # equilibrium: both add up to 1
+    Mf = -z * y * H * (H + y) / (6 * EI * delta11)  # equilibrium
+    Mn = Rp * y  # equilibrium
+    return delta10, delta11, Rp, Rf, Mf, Mn
+
+
+def guided(z, y, H, EI, GA):
+    """Return the deflection of an end that moves but does not rotate; the other end is fixed."""
+    return z**2 * (H + 2 * y) / (12 * EI) + z / GA
+
+
+def clamping(z, y, H, EI, GA, delta11):
+    """Return the moment at the fixed end that is y from the impact; the other end is fixed too."""
+    return -z * y / delta11 * (z * H / (12 * EI) + 1 / (2 * GA))
+
+
 def stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA):
     """Return the deflection at the impact, the stiffness, and where on the column the impact is.
 
@@ -125,13 +150,8 @@ def pinned_pinned(H, z, y, EI, GA):
 @Calculation
 def fixed_pinned(H, z, y, EI, GA):
     """A column propped at the top: the top is released, and brought back by its force."""
-    delta10 = z**2 * (2 * H + y) / (6 * EI) + z / GA  # flexure and shear
-    delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
-    Rt = delta10 / delta11  # no displacement at the released end
-    Rb = 1 / delta11 * (y * (3 * H**2 - y**2) / (6 * EI) + y / GA)  # equilibrium: both add up to 1
+    delta10, delta11, Rt, Rb, Mb, Mn = propped(z, y, H, EI, GA)
     Mt = 0  # pinned top
-    Mb = -z * y * H * (H + y) / (6 * EI * delta11)  # equilibrium
-    Mn = Rt * y  # equilibrium
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
     ct3, ct1 = pinned_end(Rt, st, H, EI, xn)
@@ -143,13 +163,8 @@ def fixed_pinned(H, z, y, EI, GA):
 @Calculation
 def pinned_fixed(H, z, y, EI, GA):
     """A column propped at the base: the base is released, and brought back by its force."""
-    delta10 = y**2 * (2 * H + z) / (6 * EI) + y / GA  # flexure and shear
-    delta11 = H**3 / (3 * EI) + H / GA  # flexure and shear
-    Rb = delta10 / delta11  # no displacement at the released end
-    Rt = 1 / delta11 * (z * (3 * H**2 - z**2) / (6 * EI) + z / GA)  # equilibrium: both add up to 1
+    delta10, delta11, Rb, Rt, Mt, Mn = propped(y, z, H, EI, GA)
     Mb = 0  # pinned base
-    Mt = -z * y * H * (H + z) / (6 * EI * delta11)  # equilibrium
-    Mn = Rb * z  # equilibrium
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb3, cb1 = pinned_end(Rb, sb, H, EI, xn)
     ct2, ct3, ct1 = fixed_end(Mt, Rt, H, EI, GA, xn)
@@ -161,14 +176,12 @@ def pinned_fixed(H, z, y, EI, GA):
 @Calculation
 def fixed_fixed(H, z, y, EI, GA):
     """Both ends fixed: the top may move but not rotate, and is brought back by its force."""
-    delta10 = (
-        z**2 * (H + 2 * y) / (12 * EI) + z / GA
-    )  # flexure and shear; the released end does not rotate
+    delta10 = guided(z, y, H, EI, GA)  # flexure and shear; the released end does not rotate
     delta11 = H**3 / (12 * EI) + H / GA  # flexure and shear; the released end does not rotate
     Rt = delta10 / delta11  # no displacement at the released end
-    Rb = 1 / delta11 * (y**2 * (H + 2 * z) / (12 * EI) + y / GA)  # equilibrium: both add up to 1
-    Mt = -z * y / delta11 * (z * H / (12 * EI) + 1 / (2 * GA))  # no rotation at the top
-    Mb = -z * y / delta11 * (y * H / (12 * EI) + 1 / (2 * GA))  # equilibrium
+    Rb = 1 / delta11 * guided(y, z, H, EI, GA)  # equilibrium: both add up to 1
+    Mt = clamping(z, y, H, EI, GA, delta11)  # no rotation at the top
+    Mb = clamping(y, z, H, EI, GA, delta11)  # equilibrium
     Mn = Mb + Rb * z  # equilibrium
     xfb, xft, xs, xn, kp, sb, st = stiffness(Rb, Rt, Mb, Mn, Mt, H, z, y, EI, GA)
     cb2, cb3, cb1 = fixed_end(Mb, Rb, H, EI, GA, xn)
