@@ -25,6 +25,18 @@ sections = st.one_of(
 )
 
 
+def round_column(height, diameter, base="fixed", top="pinned", modulus=28e9):
+    """A round column of concrete."""
+    return PierColumn(
+        height=height,
+        section=CircularSection(diameter=diameter),
+        elastic_modulus=modulus,
+        density=2450.0,
+        base=base,
+        top=top,
+    )
+
+
 @st.composite
 def struck_columns(draw):
     """A column, and an impact height on it (at the tip too, where the top is free)."""

@@ -7,9 +7,9 @@ import pytest
 import test_history
 from beam_reference import solve
 from generated_collisions import HARD, Case, collisions
+from generated_columns import round_column
 
 from pierimpact import (
-    CircularSection,
     CrushSpring,
     EquivalentPier,
     PierColumn,
@@ -21,17 +21,6 @@ from pierimpact.pier.beam import BeamPier
 
 TRUCK = load_truck("single-unit-8t")
 ENDS = [("fixed", "pinned"), ("fixed", "fixed"), ("fixed", "free"), ("pinned", "pinned")]
-
-
-def column(height, diameter, base="fixed", top="pinned", modulus=28e9):
-    return PierColumn(
-        height=height,
-        section=CircularSection(diameter=diameter),
-        elastic_modulus=modulus,
-        density=2450.0,
-        base=base,
-        top=top,
-    )
 
 
 class Struck(NamedTuple):
@@ -57,7 +46,7 @@ def struck_columns(count, seed):
     found = []
     for number, (truck, _, speed) in enumerate(collisions(count, seed=seed)):
         height = generator.uniform(3.0, 9.0)
-        struck = column(height, height * generator.uniform(0.12, 0.3), *ENDS[number % 4])
+        struck = round_column(height, height * generator.uniform(0.12, 0.3), *ENDS[number % 4])
         ratio = generator.choice([0.02, 0.05, 0.1])
         found.append(Struck(truck, struck, generator.uniform(0.8, 1.6), ratio, speed))
     return found
@@ -112,7 +101,7 @@ def test_one_mode_is_the_pier_with_one_degree_of_freedom(case):
 
 
 def test_the_first_mode_alone_is_the_pier_with_its_mass_and_stiffness():
-    beam = column(5.0, 0.914).beam(1.2)
+    beam = round_column(5.0, 0.914).beam(1.2)
     mass = 1.0 / beam.impact_deflection[0] ** 2
     stiffness = mass * beam.circular_frequencies[0] ** 2
     pier = EquivalentPier(mass=mass, stiffness=stiffness)
@@ -175,7 +164,7 @@ def integrals(values, time):
 
 
 def test_one_degree_of_freedom_has_no_member_forces_in_time():
-    assert simulate(TRUCK, column(5.0, 0.914).equivalent(1.2), 22.2).member_forces is None
+    assert simulate(TRUCK, round_column(5.0, 0.914).equivalent(1.2), 22.2).member_forces is None
 
 
 @pytest.mark.parametrize(("base", "top"), ENDS)
@@ -191,7 +180,7 @@ def test_under_a_slow_load_they_are_the_static_member_forces(base, top):
         engine_spring=spring,
         body_spring=spring,
     )
-    struck = column(5.0, 1.0, base, top)
+    struck = round_column(5.0, 1.0, base, top)
     history = simulate(truck, struck.beam(1.2, damping_ratio=0.3), 1.0, duration=0.5)
     at = np.searchsorted(history.time, 0.45)
     assert history.contact_force[at] == pytest.approx(200e3)
@@ -253,7 +242,10 @@ EXAMPLES = [  # height, diameter, ends, speed
 @pytest.mark.parametrize("on", ["road", "pier"])
 @pytest.mark.parametrize(("height", "diameter", "ends", "speed"), EXAMPLES)
 def test_shear_and_moment_are_those_of_finite_elements(height, diameter, ends, speed, on):
-    truck, struck = dataclasses.replace(TRUCK, friction_on=on), column(height, diameter, *ends)
+    truck, struck = (
+        dataclasses.replace(TRUCK, friction_on=on),
+        round_column(height, diameter, *ends),
+    )
     history = simulate(truck, struck.beam(1.2), speed)
     reference = solve(truck, struck, 1.2, 0.05, speed, duration=0.12, elements=100, step=2e-5)
     forces = history.member_forces

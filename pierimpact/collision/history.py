@@ -186,7 +186,7 @@ class CollisionHistory:
 
     @cached_property
     def friction_force(self) -> Array:
-        """Friction F_s against the body's motion, shape (n,) [N]."""
+        """Friction F_f against the body's motion, shape (n,) [N]."""
         # Where the body sticks the friction is what holds it.
         held_mass = self.truck.body_mass if self._friction_on_pier else 0.0
         held = -self.body_force - held_mass * self._flat(self._series(PIER, order=2))
@@ -195,7 +195,7 @@ class CollisionHistory:
 
     @cached_property
     def contact_force(self) -> Array:
-        """Force of the truck on the pier, F1 + F2 (+ F_s if friction acts on the pier) [N]."""
+        """Force of the truck on the pier, F1 + F2 (+ F_f if friction acts on the pier) [N]."""
         force = self.engine_force + self.body_force
         return force + self.friction_force if self._friction_on_pier else force
 

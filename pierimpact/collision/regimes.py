@@ -73,9 +73,9 @@ class State(NamedTuple):
 class LinearMotion(NamedTuple):
     """The linear equations of motion of one regime.
 
-    x_p'' = (F1 + γ F2 + on_pier F_s)/m_p − B x_p − C x_p', with B = k_p/m_p and C = c_p/m_p
+    x_p'' = (F1 + γ F2 + on_pier F_f)/m_p − B x_p − C x_p', with B = k_p/m_p and C = c_p/m_p
     δ1'' = −F1/m1 − x_p''
-    δ2'' = −(F2 + F_s)/m2 − γ x_p''
+    δ2'' = −(F2 + F_f)/m2 − γ x_p''
 
     Where the body sticks, 1/m2 = 0; where it sticks to the pier, both move as one mass, γ = 0
     and m_p includes m2.
