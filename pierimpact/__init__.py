@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from pierimpact.design.reaction import design_reaction, design_reactions
     from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
     from pierimpact.files.trucks import load_truck
-    from pierimpact.pier.column import PierColumn
+    from pierimpact.pier.column import PierColumn, Step
     from pierimpact.pier.equivalent import EquivalentPier
     from pierimpact.pier.sections import CircularSection, RectangularSection
     from pierimpact.vehicle.crush import CrushSpring
@@ -26,6 +26,7 @@ __all__ = [
     "InputError",
     "PierColumn",
     "RectangularSection",
+    "Step",
     "Truck",
     "cargo_spectrum",
     "design_reaction",
@@ -48,7 +49,7 @@ _HOMES = {
     "design.reaction": ["design_reaction", "design_reactions"],
     "design.spectra": ["cargo_spectrum", "engine_spectrum"],
     "files.trucks": ["load_truck"],
-    "pier.column": ["PierColumn"],
+    "pier.column": ["PierColumn", "Step"],
     "pier.equivalent": ["EquivalentPier"],
     "pier.sections": ["CircularSection", "RectangularSection"],
     "vehicle.crush": ["CrushSpring"],

@@ -1,9 +1,11 @@
 """Columns for tests over generated inputs."""
 
+import dataclasses
+
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from pierimpact import CircularSection, PierColumn, RectangularSection
+from pierimpact import CircularSection, PierColumn, RectangularSection, Step
 
 STABLE = [
     ("fixed", "fixed"),
@@ -13,7 +15,10 @@ STABLE = [
     ("pinned", "pinned"),
     ("free", "fixed"),
 ]
-MECHANISMS = [("pinned", "free"), ("free", "pinned"), ("free", "free")]
+
+SPRINGS = [
+    "base_stiffness", "base_rotation_stiffness", "top_stiffness", "top_rotation_stiffness"
+]  # fmt: skip
 
 GENERATED = settings(max_examples=150)
 
@@ -25,7 +30,7 @@ sections = st.one_of(
 )
 
 
-def round_column(height, diameter, base="fixed", top="pinned", modulus=28e9):
+def round_column(height, diameter, base="fixed", top="pinned", modulus=28e9, **extras):
     """A round column of concrete."""
     return PierColumn(
         height=height,
@@ -34,6 +39,7 @@ def round_column(height, diameter, base="fixed", top="pinned", modulus=28e9):
         density=2450.0,
         base=base,
         top=top,
+        **extras,
     )
 
 
@@ -54,3 +60,29 @@ def struck_columns(draw):
     if top == "free":
         fraction = st.one_of(fraction, st.just(1.0))
     return column, draw(fraction) * column.height
+
+
+@st.composite
+def arranged_columns(draw):
+    """A column with any of steps, springs, a top mass and embedment, and an impact height on it."""
+    column, impact_height = draw(struck_columns())
+    unit = column.flexural_rigidity / column.height**3
+    ratio = st.floats(-3.0, 3.0).map(lambda power: 10.0**power)
+    springs = {
+        name: draw(ratio) * unit * column.height ** (2 * ("rotation" in name))
+        for name in draw(st.sets(st.sampled_from(SPRINGS)))
+    }
+    heights = sorted(draw(st.sets(st.integers(1, 19), max_size=3)))
+    steps = [Step(height=0.05 * i * column.height, section=draw(sections)) for i in heights]
+    extras = {
+        "steps": steps,
+        "top_mass": draw(st.floats(0.0, 2.0)) * column.mass,
+        "embedment": draw(st.sampled_from([0.0, 0.1, 0.5])) * column.height,
+    }
+    return dataclasses.replace(column, **springs, **extras), impact_height
+
+
+def joints(column, impact_height):
+    """The heights at which anything changes, in ascending order."""
+    heights = {-column.embedment, impact_height, column.height}
+    return sorted(heights | {step.height for step in column.steps})

@@ -6,6 +6,7 @@ is the package's own error.
 """
 
 from fractions import Fraction
+from itertools import pairwise
 
 RESTRAINED = {"fixed": (True, True), "pinned": (True, False), "free": (False, False)}
 
@@ -13,31 +14,35 @@ RESTRAINED = {"fixed": (True, True), "pinned": (True, False), "free": (False, Fa
 def solve(column, heights, impact_height):
     """Deflections and rotations at `heights` and the support forces, for a unit force.
 
-    `heights` increase from 0 to the column's height and hold `impact_height`. Returns the
-    deflections [m/N], the rotations [rad/N], and the forces and moments at (base, top) that the
-    supports exert, positive in the direction of travel and of positive rotation dx/dz.
+    `heights` increase from the column's bottom to its top and hold `impact_height` and those where
+    the section changes. Returns the deflections [m/N], the rotations [rad/N], and the forces and
+    moments at (base, top) that the supports exert, positive in the direction of travel and of
+    positive rotation dx/dz.
     """
-    modulus, poisson = Fraction(column.elastic_modulus), Fraction(column.poisson_ratio)
-    bending = modulus * Fraction(column.section.second_moment)
-    shearing = (
-        modulus
-        / (2 * (1 + poisson))
-        * Fraction(column.section.shear_coefficient * column.section.area)
-    )
     nodes = [Fraction(height) for height in heights]
     size = 2 * len(nodes)
     stiffness = [[Fraction(0)] * size for _ in range(size)]
-    for element in range(len(nodes) - 1):
-        matrix = element_stiffness(nodes[element + 1] - nodes[element], bending, shearing)
+    for element, (bottom, top) in enumerate(pairwise(nodes)):
+        matrix = element_stiffness(top - bottom, *rigidities(column, bottom))
         for i in range(4):
             for j in range(4):
                 stiffness[2 * element + i][2 * element + j] += matrix[i][j]
     load = [Fraction(0)] * size
     load[2 * nodes.index(Fraction(impact_height))] = Fraction(1)
-    held = {i for i in (0, 1) if RESTRAINED[column.base][i]}
-    held |= {size - 2 + i for i in (0, 1) if RESTRAINED[column.top][i]}
+    ends = {0: "base", size - 2: "top"}
+    held, springs = set(), {}
+    for first, name in ends.items():
+        for i, spring in enumerate(("stiffness", "rotation_stiffness")):
+            value = getattr(column, f"{name}_{spring}")
+            if value is not None:
+                springs[first + i] = Fraction(value)
+            elif RESTRAINED[getattr(column, name)][i]:
+                held.add(first + i)
     moving = [i for i in range(size) if i not in held]
-    moved = gauss([[stiffness[i][j] for j in moving] for i in moving], [load[i] for i in moving])
+    sprung = [
+        [stiffness[i][j] + (springs.get(i, 0) if i == j else 0) for j in moving] for i in moving
+    ]
+    moved = gauss(sprung, [load[i] for i in moving])
     displacement = [Fraction(0)] * size
     for i, value in zip(moving, moved, strict=True):
         displacement[i] = value
@@ -46,6 +51,16 @@ def solve(column, heights, impact_height):
         for i in (0, size - 2, 1, size - 1)
     ]
     return displacement[0::2], displacement[1::2], support[:2], support[2:]
+
+
+def rigidities(column, height):
+    """EI and κGA of the part that begins at a height."""
+    section = column.section
+    for step in column.steps:
+        section = step.section if Fraction(step.height) <= height else section
+    modulus, poisson = Fraction(column.elastic_modulus), Fraction(column.poisson_ratio)
+    shear_area = Fraction(section.shear_coefficient * section.area)
+    return modulus * Fraction(section.second_moment), modulus / (2 * (1 + poisson)) * shear_area
 
 
 def element_stiffness(length, bending, shearing):

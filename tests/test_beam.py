@@ -1,13 +1,17 @@
+import dataclasses
 import math
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from generated_columns import GENERATED, round_column, struck_columns
+from generated_columns import GENERATED, arranged_columns, round_column, struck_columns
 from hypothesis import given
+from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 from pierimpact import InputError
-from pierimpact.pier.beam import Part, beam_pier
+from pierimpact.pier.arrangement import SUPPORTS, Arrangement, Part
+from pierimpact.pier.beam import beam_pier
 
 # Closed forms.
 
@@ -28,6 +32,38 @@ def test_slender_column_has_the_frequencies_of_eulers_beam(base, top, roots):
     per_length = math.sqrt(slender.flexural_rigidity / slender.mass_per_length) / 500.0**2
     expected = np.square(roots) * per_length / (2.0 * math.pi)
     assert found == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 1.0, 30.0])
+def test_slender_cantilever_with_a_mass_at_its_tip(ratio):
+    """1 + cos λ cosh λ + r λ (cos λ sinh λ − sin λ cosh λ) = 0 with r the masses' ratio."""
+    bare = round_column(500.0, 1.0, "fixed", "free")
+    loaded = dataclasses.replace(bare, top_mass=ratio * bare.mass)
+
+    def characteristic(x):
+        mass = ratio * x * (math.cos(x) * math.tanh(x) - math.sin(x))
+        return 1.0 / math.cosh(x) + math.cos(x) + mass
+
+    # One root in each quarter turn before an odd number of them, whatever the mass.
+    roots = [brentq(characteristic, 1e-3, 1.8752), brentq(characteristic, 3.9266, 4.6942)]
+    per_length = math.sqrt(bare.flexural_rigidity / bare.mass_per_length) / 500.0**2
+    expected = np.square(roots) * per_length / (2.0 * math.pi)
+    assert loaded.beam(200.0, modes=2).frequencies == pytest.approx(expected, rel=1e-4)
+
+
+def test_rigid_column_on_springs_sways_and_rocks():
+    """Two degrees of freedom: its centre of mass and its rotation, with the mass at the top."""
+    base, rotation, height, cap = 4e8, 9e9, 6.0, 8e3
+    springs = {"base_stiffness": base, "base_rotation_stiffness": rotation, "top_mass": cap}
+    stiff = round_column(height, 1.0, "free", "free", modulus=28e17, **springs)
+    per_length, length = stiff.mass_per_length, np.array([[1.0], [height]])
+    inertia = per_length * height**3 / 3.0
+    inertia += stiff.density * stiff.section.second_moment * height
+    first = per_length * height**2 / 2.0
+    mass = np.array([[stiff.mass, first], [first, inertia]]) + cap * length @ length.T
+    squares = np.linalg.eigvals(np.linalg.solve(mass, np.diag([base, rotation])))
+    expected = np.sqrt(np.sort(squares)) / (2.0 * math.pi)
+    assert stiff.beam(1.2, modes=2).frequencies == pytest.approx(expected, rel=1e-6)
 
 
 def timoshenko_pinned(column, modes):
@@ -61,11 +97,12 @@ def test_pinned_column_has_timoshenkos_frequencies(height, diameter, impact_heig
 def test_rigid_in_flexure_it_is_a_shear_beam(ends, quarter_waves):
     length, stiff = 4.0, round_column(4.0, 1.0)
     G_A, m = stiff.shear_rigidity, stiff.mass_per_length
-    parts = [
+    parts = tuple(
         Part(bottom, top, 1e9 * stiff.flexural_rigidity, G_A, m, 1.0)
         for bottom, top in ((0.0, 1.0), (1.0, length))
-    ]
-    beam = beam_pier(parts, ends, 1, stiff.equivalent(1.0), modes=4)
+    )
+    arrangement = Arrangement(parts, *(SUPPORTS[end] for end in ends))
+    beam = beam_pier(arrangement, 1, stiff.equivalent(1.0), modes=4)
     expected = np.array(quarter_waves) * math.sqrt(G_A / m) / (4.0 * length)
     assert beam.frequencies == pytest.approx(expected, rel=1e-6)
 
@@ -90,8 +127,9 @@ def test_parts_of_one_section_are_one_beam():
     rigidities = (whole.flexural_rigidity, whole.shear_rigidity, whole.mass_per_length, 120.0)
     one, several = (
         beam_pier(
-            [Part(bottom, top, *rigidities) for bottom, top in pairwise(joints)],
-            ("fixed", "pinned"),
+            whole.arrangement._replace(
+                parts=tuple(Part(bottom, top, *rigidities) for bottom, top in pairwise(joints))
+            ),
             struck,
             whole.equivalent(2.0),
             modes=12,
@@ -109,7 +147,7 @@ def test_parts_of_one_section_are_one_beam():
 
 
 @GENERATED
-@given(struck_columns())
+@given(st.one_of(struck_columns(), arranged_columns()))
 def test_a_static_force_gives_the_static_member_forces(struck):
     column, impact_height = struck
     beam = column.beam(impact_height, modes=5)

@@ -1,14 +1,30 @@
 import dataclasses
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
 import stiffness_method
-from generated_columns import GENERATED, MECHANISMS, STABLE, struck_columns
+from generated_columns import (
+    GENERATED,
+    STABLE,
+    arranged_columns,
+    joints,
+    round_column,
+    struck_columns,
+)
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pierimpact import CircularSection, EquivalentPier, InputError, PierColumn, RectangularSection
+from pierimpact import (
+    CircularSection,
+    EquivalentPier,
+    InputError,
+    PierColumn,
+    RectangularSection,
+    Step,
+)
+from pierimpact.pier.unit_force import BY_ENDS
 
 EXAMPLE = {
     "height": 5.0,
@@ -48,23 +64,67 @@ def test_deflection_agrees_with_the_stiffness_method(case, fractions):
 
 
 @GENERATED
-@given(struck_columns())
+@given(st.one_of(struck_columns(), arranged_columns()))
 def test_equivalent_mass_agrees_with_the_stiffness_method(case):
     column, impact_height = case
     nodes, weights = np.polynomial.legendre.leggauss(5)
-    parts = [(0.0, impact_height)]
-    if impact_height < column.height:
-        parts.append((impact_height, column.height))
+    ends = joints(column, impact_height)
+    parts = list(pairwise(ends))
     points = [start + (end - start) * (1.0 + nodes) / 2.0 for start, end in parts]
-    heights = np.unique(np.concatenate([[0.0, impact_height, column.height], *points]))
+    heights = np.unique(np.concatenate([ends, *points]))
     exact, _, _, _ = stiffness_method.solve(column, heights, impact_height)
     deflection = dict(zip(heights, np.array(exact, dtype=float), strict=True))
-    integral = 0.0
+    mass = column.top_mass * (deflection[column.height] / deflection[impact_height]) ** 2
     for (start, end), z in zip(parts, points, strict=True):
         shape = np.array([deflection[height] for height in z]) / deflection[impact_height]
-        integral += (end - start) / 2.0 * (weights @ shape**2)
-    mass = column.density * column.section.area * integral
-    assert column.equivalent(impact_height).mass == pytest.approx(mass, rel=1e-10)
+        section = column.section
+        for step in column.steps:
+            section = step.section if step.height <= start else section
+        mass += column.density * section.area * (end - start) / 2.0 * (weights @ shape**2)
+    assert column.equivalent(impact_height).mass == pytest.approx(mass, rel=1e-9)
+
+
+@GENERATED
+@given(arranged_columns())
+def test_any_arrangement_agrees_with_the_stiffness_method(case):
+    column, impact_height = case
+    heights = joints(column, impact_height)
+    exact, _, forces, moments = stiffness_method.solve(column, heights, impact_height)
+    exact = np.array(exact, dtype=float)
+    struck = column.struck_at(impact_height)
+    largest = np.abs(exact).max()
+    np.testing.assert_allclose(struck.deflection(heights), exact, rtol=0.0, atol=1e-10 * largest)
+    assert 1.0 / struck.stiffness == pytest.approx(exact[heights.index(impact_height)], rel=1e-10)
+    found = struck.member_forces(1.0)
+    size = column.height + column.embedment
+    # A support moment in the sense of dx/dz puts the far face in tension at the base, and the
+    # near face at the top.
+    for ours, expected, unit in (
+        (found.base_force, -forces[0], 1.0),
+        (found.top_force, -forces[1], 1.0),
+        (found.base_moment, moments[0], size),
+        (found.top_moment, -moments[1], size),
+    ):
+        assert ours == pytest.approx(float(expected), rel=0.0, abs=1e-10 * unit)
+
+
+@GENERATED
+@given(struck_columns())
+def test_uniform_columns_agree_with_the_closed_forms(case):
+    column, z = case
+    rigidity = {name: column.values[name] for name in ("H", "EI", "GA")}
+    closed = BY_ENDS[column.base, column.top](z=z, y=column.height - z, **rigidity)
+    found = column.struck_at(z).unit_force
+    for name, value in (
+        ("Rb", found.base_force),
+        ("Rt", found.top_force),
+        ("Mb", found.base_moment),
+        ("Mt", found.top_moment),
+        ("xn", found.deflection),
+    ):
+        assert value == pytest.approx(closed[name], rel=1e-12, abs=1e-300)
+    mass = column.mass_per_length * (closed["phi2b"] + closed["phi2t"])
+    assert found.mass == pytest.approx(mass, rel=1e-9)
 
 
 @GENERATED
@@ -266,14 +326,88 @@ def test_deflection_follows_the_shape_of_z_and_the_force():
     )
 
 
-@pytest.mark.parametrize(("base", "top"), MECHANISMS)
-def test_mechanisms_are_refused(base, top):
-    message = (
-        f"^base and top must include a fixed end or both be pinned, got base '{base}' and "
-        f"top '{top}': the column would be a mechanism$"
-    )
+@pytest.mark.parametrize(
+    ("base", "top", "springs", "free"),
+    [
+        ("pinned", "free", {}, "to rotate about its base"),
+        ("free", "pinned", {}, "to rotate about its top"),
+        ("free", "free", {}, "to move sideways and to rotate"),
+        ("free", "free", {"base_rotation_stiffness": 1e9}, "to move sideways"),
+        ("free", "free", {"top_stiffness": 1e9}, "to rotate about its top"),
+        ("fixed", "pinned", {"base_stiffness": 0.0, "top_stiffness": 0.0}, "to move sideways"),
+        ("fixed", "free", {"base_rotation_stiffness": 0.0}, "to rotate about its base"),
+    ],
+)
+def test_mechanisms_are_refused(base, top, springs, free):
+    message = f"^base and top leave the column a mechanism, free {free}: one end must be fixed, "
     with pytest.raises(InputError, match=message):
-        column(base, top)
+        column(base, top, **springs)
+
+
+@pytest.mark.parametrize(
+    ("base", "top", "springs"),
+    [
+        ("free", "free", {"base_stiffness": 1e8, "base_rotation_stiffness": 1e9}),
+        ("pinned", "free", {"top_stiffness": 1e6}),
+        ("pinned", "free", {"base_rotation_stiffness": 1e9}),
+    ],
+)
+def test_springs_hold_what_the_ends_leave_free(base, top, springs):
+    assert column(base, top, **springs).equivalent(1.2).stiffness > 0.0
+
+
+# Other arrangements
+
+
+def test_rigid_column_on_springs_deflects_in_a_straight_line():
+    springs = {"base_stiffness": 3e8, "base_rotation_stiffness": 7e9}
+    stiff = round_column(6.0, 1.0, "free", "free", 1e20, **springs)
+    z = np.linspace(0.0, 6.0, 7)
+    np.testing.assert_allclose(stiff.struck_at(1.2).deflection(z), 1 / 3e8 + z * 1.2 / 7e9)
+
+
+@GENERATED
+@given(struck_columns(), st.floats(0.01, 1.0))
+def test_embedded_column_is_a_longer_one(case, share):
+    column, impact_height = case
+    depth = share * column.height
+    embedded = dataclasses.replace(column, embedment=depth)
+    longer = dataclasses.replace(column, height=column.height + depth)
+    here, there = embedded.struck_at(impact_height), longer.struck_at(impact_height + depth)
+    assert here.stiffness == pytest.approx(there.stiffness, rel=1e-9)
+    assert here.mass == pytest.approx(there.mass, rel=1e-9)
+    here, there = (struck.member_forces(1.0) for struck in (here, there))
+    np.testing.assert_allclose(here.z, there.z - depth, atol=1e-9 * column.height)
+    np.testing.assert_allclose(here.moment, there.moment, atol=1e-9 * longer.height)
+
+
+@GENERATED
+@given(struck_columns(), st.floats(0.05, 0.95))
+def test_step_to_the_same_section_is_no_step(case, share):
+    column, impact_height = case
+    step = Step(height=share * column.height, section=column.section)
+    stepped = dataclasses.replace(column, steps=[step])
+    whole = column.equivalent(impact_height)
+    parts = stepped.equivalent(impact_height)
+    assert parts.stiffness == pytest.approx(whole.stiffness, rel=1e-11)
+    assert parts.mass == pytest.approx(whole.mass, rel=1e-9)
+    assert stepped.mass == pytest.approx(column.mass, rel=1e-12)
+
+
+@pytest.mark.parametrize(("named", "spring"), [("fixed", 1e25), ("pinned", 1e-9)])
+def test_very_stiff_and_very_soft_springs_are_the_named_ends(named, spring):
+    sprung = column("fixed", "pinned", base_rotation_stiffness=spring).equivalent(1.2)
+    rigid = column(named, "pinned").equivalent(1.2)
+    assert sprung.stiffness == pytest.approx(rigid.stiffness, rel=1e-9)
+    assert sprung.mass == pytest.approx(rigid.mass, rel=1e-9)
+
+
+def test_mass_at_the_top_enters_with_the_square_of_the_shape():
+    bare = column("fixed", "free")
+    loaded = dataclasses.replace(bare, top_mass=40e3)
+    added = loaded.equivalent(1.2).mass - bare.equivalent(1.2).mass
+    assert added == pytest.approx(40e3 * bare.struck_at(1.2).shape(5.0) ** 2, rel=1e-9)
+    assert loaded.equivalent(1.2).stiffness == bare.equivalent(1.2).stiffness
 
 
 @pytest.mark.parametrize(
@@ -289,6 +423,20 @@ def test_mechanisms_are_refused(base, top):
         (
             {"section": 0.9},
             r"section must be a CircularSection or a RectangularSection, got 0\.9",
+        ),
+        ({"top_mass": -1.0}, "top_mass must not be negative, got -1"),
+        ({"top_stiffness": -5.0}, "top_stiffness must not be negative, got -5"),
+        ({"embedment": math.inf}, "embedment must be finite, got inf"),
+        ({"steps": [3.0]}, r"steps must be Steps, got 3\.0"),
+        (
+            {"steps": [Step(height=2.0, section=EXAMPLE["section"])] * 2},
+            "step height must be above 2 m and below the height 5 m, got 2 m: no part may have a "
+            "length of zero",
+        ),
+        (
+            {"steps": [Step(height=5.0, section=EXAMPLE["section"])]},
+            "step height must be above 0 m and below the height 5 m, got 5 m: no part may have a "
+            "length of zero",
         ),
     ],
 )

@@ -1,41 +1,22 @@
 """The pier as a beam: natural modes of a Timoshenko beam, and the flexibility they leave out."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from numbers import Integral
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from pierimpact.checks import InputError
+from pierimpact.pier.arrangement import Arrangement
 from pierimpact.pier.equivalent import EquivalentPier
 
 Array: TypeAlias = NDArray[np.float64]
 
-# Whether each kind of end deflects, and whether it rotates.
-_MOVES = {"fixed": (False, False), "pinned": (False, True), "free": (True, True)}
-
 HIGHEST_FREQUENCY = 2500.0  # up to which modes are kept [Hz]
 FEWEST_MODES, MOST_MODES = 8, 64
 INTERVALS = 60  # about as many between the heights at which shear and moment are evaluated
-
-
-class Part(NamedTuple):
-    """A uniform part of a beam, between two heights."""
-
-    bottom: float  #: [m]
-    top: float  #: [m]
-    flexural_rigidity: float  #: EI [N m²]
-    shear_rigidity: float  #: κGA [N]
-    mass_per_length: float  #: m̄ = ρA [kg/m]
-    rotary_inertia: float  #: ρI, per length [kg m]
-
-    @property
-    def length(self) -> float:
-        """Length [m]."""
-        return self.top - self.bottom
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -89,20 +70,14 @@ class BeamPier:
 
 
 def beam_pier(
-    parts: Sequence[Part],
-    ends: tuple[str, str],
-    struck: int,
-    equivalent: EquivalentPier,
-    modes: int | None = None,
+    arrangement: Arrangement, struck: int, equivalent: EquivalentPier, modes: int | None = None
 ) -> BeamPier:
-    """Return the beam of uniform parts, one on top of the other.
+    """Return the beam of a column.
 
     Parameters
     ----------
-    parts : sequence of Part
-        From the base upward.
-    ends : tuple of {"fixed", "pinned", "free"}
-        Conditions of base and top.
+    arrangement : Arrangement
+        Its parts, with a joint at the impact, between its supports.
     struck : int
         Number of parts below the impact.
     equivalent : EquivalentPier
@@ -121,12 +96,12 @@ def beam_pier(
     if modes is not None and not (whole and modes > 0):
         raise InputError(f"modes must be a whole number above zero, got {modes!r}")
     highest, count = 2.0 * np.pi * HIGHEST_FREQUENCY, modes or FEWEST_MODES
-    elements = Elements(parts, ends, count)
+    elements = Elements(arrangement, count)
     omega, shapes = elements.modes()
     if modes is None:
         while omega[count - 1] < highest and count < MOST_MODES:
             count *= 2
-            elements = Elements(parts, ends, count)
+            elements = Elements(arrangement, count)
             omega, shapes = elements.modes()
         count = min(max(FEWEST_MODES, int(np.searchsorted(omega, highest)) + 1), MOST_MODES)
 
@@ -159,7 +134,8 @@ class Elements:
     rotations in the same order.
     """
 
-    def __init__(self, parts: Sequence[Part], ends: tuple[str, str], modes: int) -> None:
+    def __init__(self, arrangement: Arrangement, modes: int) -> None:
+        parts, supports = arrangement.parts, (arrangement.base, arrangement.top)
         height = parts[-1].top - parts[0].bottom
         self.elements = []  # part, degree and places of its unknowns among those of one kind
         size = len(parts) + 1
@@ -169,13 +145,18 @@ class Elements:
             places = np.concatenate(([number, number + 1], size + np.arange(degree - 1)))
             self.elements.append((part, degree, places))
             size += degree - 1
-        moves = np.ones((2, size), dtype=bool)
-        moves[:, [0, len(parts)]] = np.transpose([_MOVES[end] for end in ends])
-        self.moves = moves.ravel()
+        # Springs of the supports in the order of the unknowns, ∞ where one is held; top mass.
+        self.springs, self.masses = np.zeros((2, 2, size))
+        self.springs[:, [0, len(parts)]] = np.transpose(supports)
+        self.masses[0, len(parts)] = arrangement.top_mass
+        self.moves = np.isfinite(self.springs).ravel()
 
     def modes(self) -> tuple[Array, Array]:
         """Return circular frequencies, ascending, and mass-normalised shapes, in columns."""
-        stiffness, mass = (matrix[np.ix_(self.moves, self.moves)] for matrix in self.matrices())
+        free = np.ix_(self.moves, self.moves)
+        stiffness, mass = (matrix[free] for matrix in self.matrices())
+        stiffness += np.diag(self.springs.ravel()[self.moves])
+        mass += np.diag(self.masses.ravel()[self.moves])
         # The stiffness is factorised rather than the mass: the lowest modes have least round-off.
         inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
         squares, vectors = np.linalg.eigh(inverse @ mass @ inverse.T)
@@ -186,7 +167,7 @@ class Elements:
         return omega, shapes
 
     def matrices(self) -> tuple[Array, Array]:
-        """Return the matrices of stiffness and mass."""
+        """Return the matrices of stiffness and mass, without supports and the mass at the top."""
         size = len(self.moves) // 2
         bending, coupling, shearing, deflecting, rotating = np.zeros((5, size, size))
         for part, degree, places in self.elements:

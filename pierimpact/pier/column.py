@@ -1,22 +1,26 @@
 """The pier as a column: its deflection under the impact, and the equivalent pier (Eqs 1–3)."""
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, not_negative, number, one_of, positive
 from pierimpact.handcalc import Calculation, Real
-from pierimpact.pier.beam import BeamPier, Part, beam_pier
+from pierimpact.pier.arrangement import SUPPORTS, Arrangement, Part, Support, refuse_mechanism
+from pierimpact.pier.beam import BeamPier, beam_pier
 from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass
 from pierimpact.pier.member_forces import MemberForces
 from pierimpact.pier.sections import Section
+from pierimpact.pier.static import UnitForce, unit_force
 from pierimpact.pier.unit_force import BY_ENDS
 
-END_CONDITIONS = ("fixed", "pinned", "free")
+END_CONDITIONS = tuple(SUPPORTS)
+_SPRINGS = ("base_stiffness", "base_rotation_stiffness", "top_stiffness", "top_rotation_stiffness")
 
 
 @Calculation
@@ -30,8 +34,33 @@ def rigidities(E: Real, nu: Real, rho: Real, A: Real, I: Real, kappa: Real) -> d
 
 
 @dataclass(frozen=True, kw_only=True)
+class Step:
+    """A change of a column's cross-section.
+
+    Parameters
+    ----------
+    height : float
+        Height from which the column has the new section [m].
+    section : CircularSection or RectangularSection
+        Cross-section from there upward.
+
+    Raises
+    ------
+    InputError
+        When the height is not a number or the section not a section.
+    """
+
+    height: float
+    section: Section
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "height", number("step height", self.height))
+        _require_section("step section", self.section)
+
+
+@dataclass(frozen=True, kw_only=True)
 class PierColumn:
-    """A uniform column between two ends; deflects in flexure and shear (Timoshenko beam).
+    """A column between two ends; deflects in flexure and shear (Timoshenko beam).
 
     Heights z run from the base upward.
 
@@ -40,7 +69,7 @@ class PierColumn:
     height : float
         Column height H from base to top [m].
     section : CircularSection or RectangularSection
-        Cross-section.
+        Cross-section, from the base on.
     elastic_modulus : float
         Young's modulus E [Pa].
     poisson_ratio : float, optional
@@ -50,12 +79,25 @@ class PierColumn:
     base, top : {"fixed", "pinned", "free"}, optional
         End conditions. A fixed end neither moves nor turns, a pinned end turns, a free end does
         both.
+    base_stiffness, top_stiffness : float, optional
+        Lateral stiffness of what holds the end (footing, bearings); takes the place of what the
+        end condition says of its deflection [N/m].
+    base_rotation_stiffness, top_rotation_stiffness : float, optional
+        Rotational stiffness of what holds the end; takes the place of what the end condition says
+        of its rotation [N m/rad].
+    steps : sequence of Step, optional
+        Changes of the cross-section, from the base upward.
+    top_mass : float, optional
+        Mass of a cap or a share of the superstructure that moves with the top [kg].
+    embedment : float, optional
+        Equivalent depth of fixity: the column goes on as far below z = 0, where its base then is,
+        with the section that it has there [m].
 
     Raises
     ------
     InputError
-        When a value is out of its range, or the ends leave the column a mechanism: one end must
-        be fixed, or both pinned.
+        When a value is out of its range, a step is not above the one below it and within the
+        column, or the ends leave the column a mechanism.
     """
 
     height: float
@@ -65,34 +107,82 @@ class PierColumn:
     density: float
     base: str = "fixed"
     top: str = "pinned"
+    base_stiffness: float | None = None
+    base_rotation_stiffness: float | None = None
+    top_stiffness: float | None = None
+    top_rotation_stiffness: float | None = None
+    steps: Sequence[Step] = ()
+    top_mass: float = 0.0
+    embedment: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("height", "elastic_modulus", "density"):
             object.__setattr__(self, name, positive(name, getattr(self, name)))
-        if not isinstance(self.section, Section):
-            raise InputError(
-                f"section must be a CircularSection or a RectangularSection, got {self.section!r}"
-            )
+        _require_section("section", self.section)
         poisson_ratio = not_negative("poisson_ratio", self.poisson_ratio)
         if poisson_ratio > 0.5:
             raise InputError(f"poisson_ratio must be at most 0.5, got {poisson_ratio:g}")
         object.__setattr__(self, "poisson_ratio", poisson_ratio)
+        for name in ("top_mass", "embedment", *_SPRINGS):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, not_negative(name, getattr(self, name)))
         one_of("base", self.base, END_CONDITIONS)
         one_of("top", self.top, END_CONDITIONS)
-        ends = (self.base, self.top)
-        if "fixed" not in ends and "free" in ends:
-            raise InputError(
-                f"base and top must include a fixed end or both be pinned, got base "
-                f"{self.base!r} and top {self.top!r}: the column would be a mechanism"
-            )
+        refuse_mechanism(*self.supports)
+        object.__setattr__(self, "steps", tuple(self.steps))
+        below = 0.0
+        for step in self.steps:
+            if not isinstance(step, Step):
+                raise InputError(f"steps must be Steps, got {step!r}")
+            if not below < step.height < self.height:
+                raise InputError(
+                    f"step height must be above {below:g} m and below the height "
+                    f"{self.height:g} m, got {step.height:g} m: no part may have a length of zero"
+                )
+            below = step.height
+
+    @property
+    def supports(self) -> tuple[Support, Support]:
+        """What holds base and top: by the end conditions, and springs in their place."""
+        springs = [getattr(self, name) for name in _SPRINGS]
+        rigid = (*SUPPORTS[self.base], *SUPPORTS[self.top])
+        k = [end if own is None else own for own, end in zip(springs, rigid, strict=True)]
+        return Support(*k[:2]), Support(*k[2:])
+
+    @property
+    def uniform(self) -> bool:
+        """Whether it has one section, rigid or no supports and no other mass."""
+        extras = (self.steps, self.top_mass, self.embedment)
+        return not any(extras) and all(getattr(self, name) is None for name in _SPRINGS)
 
     @cached_property
     def values(self) -> dict[str, float]:
-        """Dimensions, material, rigidities and mass per length, by symbol."""
-        section = self.section.values
-        sizes = {name: section[name] for name in ("A", "I", "kappa")}
+        """Dimensions, material, rigidities and mass per length at the base, by symbol."""
+        return {**self.section_values(self.section), "H": self.height}
+
+    def section_values(self, section: Section) -> dict[str, float]:
+        """Return dimensions, material, rigidities and mass per length of a section, by symbol."""
+        values = section.values
+        sizes = {name: values[name] for name in ("A", "I", "kappa")}
         material = {"E": self.elastic_modulus, "nu": self.poisson_ratio, "rho": self.density}
-        return {**section, **rigidities(**material, **sizes), "H": self.height}
+        return {**values, **rigidities(**material, **sizes)}
+
+    @cached_property
+    def arrangement(self) -> Arrangement:
+        """The column as uniform parts between its supports."""
+        joints = [-self.embedment, *(step.height for step in self.steps), self.height]
+        sections = [self.section, *(step.section for step in self.steps)]
+        parts = []
+        for section, (bottom, top) in zip(sections, pairwise(joints), strict=True):
+            values = self.section_values(section)
+            EI, GA, mbar = (values[name] for name in ("EI", "GA", "mbar"))
+            parts.append(Part(bottom, top, EI, GA, mbar, self.density * values["I"]))
+        return Arrangement(tuple(parts), *self.supports, self.top_mass)
+
+    @property
+    def mass(self) -> float:
+        """Mass of the column itself [kg]."""
+        return sum(part.mass_per_length * part.length for part in self.arrangement.parts)
 
     @property
     def flexural_rigidity(self) -> float:
@@ -145,12 +235,7 @@ class PierColumn:
             As in `pierimpact.pier.beam.beam_pier`.
         """
         equivalent = self.equivalent(impact_height, damping_ratio)
-        joints = np.unique([0.0, float(impact_height), self.height]).tolist()
-        rotary_inertia = self.density * self.section.second_moment
-        uniform = (self.flexural_rigidity, self.shear_rigidity, self.mass_per_length)
-        parts = [Part(*stretch, *uniform, rotary_inertia) for stretch in pairwise(joints)]
-        struck = joints.index(float(impact_height))
-        return beam_pier(parts, (self.base, self.top), struck, equivalent, modes)
+        return beam_pier(*self.arrangement.with_joint(float(impact_height)), equivalent, modes)
 
     def member_forces(self, reaction: float, impact_height: float) -> MemberForces:
         """Support reactions, shear and moment under the static force R at the impact height.
@@ -169,7 +254,6 @@ class PierColumn:
 class StruckColumn:
     """A column under a unit force at the impact height z_n, and what Eqs 1–3 make of it.
 
-    The equations are in `pierimpact.pier.unit_force`, and their values in `values`, by symbol.
     Forces and deflections are positive in the direction of travel.
 
     Parameters
@@ -191,76 +275,95 @@ class StruckColumn:
     def __post_init__(self) -> None:
         impact_height = number("impact_height", self.impact_height)
         object.__setattr__(self, "impact_height", impact_height)
-        height, base, top = self.column.height, self.column.base, self.column.top
-        above_base = impact_height > 0.0 or (base == "free" and impact_height == 0.0)
-        below_top = impact_height < height or (top == "free" and impact_height == height)
+        column = self.column
+        base, top = column.supports
+        # Above ground, and not where a support holds it.
+        on_base = column.embedment > 0.0 or math.isfinite(base.stiffness)
+        on_top = math.isfinite(top.stiffness)
+        above_base = impact_height > 0.0 or (on_base and impact_height == 0.0)
+        below_top = impact_height < column.height or (on_top and impact_height == column.height)
         if not (above_base and below_top):
             raise InputError(
-                f"impact_height must be {'at least' if base == 'free' else 'above'} 0 m and "
-                f"{'at most' if top == 'free' else 'below'} the height {height:g} m "
-                f"of a column with {base} base and {top} top, got {impact_height:g} m"
+                f"impact_height must be {'at least' if on_base else 'above'} 0 m and "
+                f"{'at most' if on_top else 'below'} the height {column.height:g} m "
+                f"of a column with {column.base} base and {column.top} top, got "
+                f"{impact_height:g} m"
             )
 
     @cached_property
+    def unit_force(self) -> UnitForce:
+        """What the unit force does to the column."""
+        return unit_force(self.column.arrangement, self.impact_height)
+
+    @cached_property
     def values(self) -> dict[str, float]:
-        """Every value on the way from the column to its stiffness and shape, by symbol."""
-        column, z = self.column, self.impact_height
-        calculation = BY_ENDS[column.base, column.top]
+        """Every value on the way from the column to its stiffness and shape, by symbol.
+
+        For a uniform column by the closed forms of `pierimpact.pier.unit_force`, which can be
+        followed by hand; for any other those of its base, and what the unit force does to it.
+        """
+        column, z, found = self.column, self.impact_height, self.unit_force
+        if not column.uniform:
+            return column.values | {
+                "z": z,
+                "Rb": found.base_force,
+                "Rt": found.top_force,
+                "Mb": found.base_moment,
+                "Mn": self.member_forces(1.0).impact_moment,
+                "Mt": found.top_moment,
+                "xn": found.deflection,
+                "kp": self.stiffness,
+                "mp": self.mass,
+            }
         rigidity = {name: column.values[name] for name in ("H", "EI", "GA")}
-        found = column.values | calculation(z=z, y=column.height - z, **rigidity)
-        return found | equivalent_mass(**{name: found[name] for name in equivalent_mass.given})
+        closed = BY_ENDS[column.base, column.top](z=z, y=column.height - z, **rigidity)
+        values = column.values | closed
+        return values | equivalent_mass(**{name: values[name] for name in equivalent_mass.given})
 
     def member_forces(self, reaction: float) -> MemberForces:
         """Support reactions, shear and moment under the static force R [N] at z_n."""
         reaction = number("reaction", reaction)
-        base_force, top_force, base_moment, top_moment = (
-            reaction * self.values[name] for name in ("Rb", "Rt", "Mb", "Mt")
-        )
+        found = self.unit_force
         return MemberForces(
             reaction=reaction,
             height=self.column.height,
+            bottom=-self.column.embedment,
             impact_height=self.impact_height,
-            base_force=base_force,
-            top_force=top_force,
-            base_moment=base_moment,
-            top_moment=top_moment,
+            base_force=reaction * found.base_force,
+            top_force=reaction * found.top_force,
+            base_moment=reaction * found.base_moment,
+            top_moment=reaction * found.top_moment,
         )
 
     @property
     def stiffness(self) -> float:
         """Stiffness k_p = 1/x(z_n) (Eq. 3 of the source paper) [N/m]."""
-        return self.values["kp"]
-
-    @property
-    def shape_coefficients(self) -> NDArray[np.float64]:
-        """Coefficients of φ = c0 + c1 s + c2 s² + c3 s³ below and above, shape (2, 4) [-].
-
-        s is the distance over H: from the base in the first row, from the top in the second.
-        """
-        return np.array(
-            [[self.values.get(f"c{end}{power}", 0.0) for power in range(4)] for end in "bt"]
-        )
+        return 1.0 / self.unit_force.deflection
 
     def shape(self, z: ArrayLike) -> NDArray[np.float64]:
         """Shape function φ(z) = x(z)/x(z_n) (Eq. 2) at heights `z` [m], in the shape of `z` [-]."""
         z = np.asarray(z, dtype=float)
-        height = self.column.height
-        if not np.all((z >= 0.0) & (z <= height)):
-            raise InputError(f"z must be from 0 m to the height {height:g} m throughout")
-        from_base, from_top = self.shape_coefficients
-        below: NDArray[np.float64] = polynomial.polyval(z / height, from_base)
-        above: NDArray[np.float64] = polynomial.polyval((height - z) / height, from_top)
-        return np.where(z <= self.impact_height, below, above)
+        bottom, height = 0.0 - self.column.embedment, self.column.height
+        if not np.all((z >= bottom) & (z <= height)):
+            raise InputError(f"z must be from {bottom:g} m to the height {height:g} m throughout")
+        return self.unit_force.deflections(z) / self.unit_force.deflection
 
     def deflection(self, z: ArrayLike, force: float = 1.0) -> NDArray[np.float64]:
         """Deflection x(z) at heights `z` [m] under a static force [N] at z_n, as `z` [m]."""
-        return np.asarray(number("force", force) * self.values["xn"] * self.shape(z))
+        return np.asarray(number("force", force) * self.unit_force.deflection * self.shape(z))
 
     @property
     def mass(self) -> float:
-        """Equivalent mass m_p = m̄ ∫ φ² dz (Eq. 1 of the source paper) [kg]."""
-        return self.values["mp"]
+        """Equivalent mass m_p = ∫ m̄ φ² dz + m_t φ(H)² (Eq. 1 of the source paper) [kg]."""
+        return self.unit_force.mass
 
     def equivalent(self, damping_ratio: float = 0.05) -> EquivalentPier:
         """Return the pier as one degree of freedom, with a damping ratio ζ [-]."""
         return EquivalentPier(mass=self.mass, stiffness=self.stiffness, damping_ratio=damping_ratio)
+
+
+def _require_section(name: str, section: object) -> None:
+    if not isinstance(section, Section):
+        raise InputError(
+            f"{name} must be a CircularSection or a RectangularSection, got {section!r}"
+        )

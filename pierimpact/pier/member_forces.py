@@ -33,8 +33,8 @@ class MemberForces:
     ----------
     reaction : float
         Force R, positive in the direction of travel [N].
-    height : float
-        Column height H [m].
+    height, bottom : float
+        Heights of the ends: column height H, and 0 or, of an embedded column, below it [m].
     impact_height : float
         Height z_n at which R acts [m].
     base_force, top_force : float
@@ -45,6 +45,7 @@ class MemberForces:
 
     reaction: float
     height: float
+    bottom: float = 0.0
     impact_height: float
     base_force: float
     top_force: float
@@ -57,16 +58,16 @@ class MemberForces:
         # The end with the smaller moment loses no figures to the difference of the two terms,
         # and gives an exact zero beside a free end.
         if abs(self.base_moment) < abs(self.top_moment):
-            return self.base_moment + self.base_force * self.impact_height
+            return self.base_moment + self.base_force * (self.impact_height - self.bottom)
         return self.top_moment + self.top_force * (self.height - self.impact_height)
 
     @property
     def z(self) -> NDArray[np.float64]:
-        """Heights 0, z_n, z_n, H of the diagrams' corners, shape (4,) [m].
+        """Heights of base, z_n, z_n and top, the diagrams' corners, shape (4,) [m].
 
         The impact height stands twice: first for the column below it, then for that above.
         """
-        return np.array([0.0, self.impact_height, self.impact_height, self.height])
+        return np.array([self.bottom, self.impact_height, self.impact_height, self.height])
 
     @property
     def shear(self) -> NDArray[np.float64]:
@@ -84,7 +85,9 @@ class MemberForces:
     def largest_shear(self) -> Extreme:
         """Shear of the largest magnitude [N] and where [m]; below the impact if both are equal."""
         corner = _first_largest(self.shear)
-        start, end = (0.0, self.impact_height) if corner < 2 else (self.impact_height, self.height)
+        start, end = (
+            (self.bottom, self.impact_height) if corner < 2 else (self.impact_height, self.height)
+        )
         return Extreme(float(self.shear[corner]), start, end)
 
     @property
