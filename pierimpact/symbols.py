@@ -23,6 +23,13 @@ fc | f_\mathrm{c}' | strength | concrete strength | concrete_strength
 nu | \nu | ratio | Poisson’s ratio | poisson_ratio
 rho | \rho | density | density | density
 
+kb | k_\mathrm{b} | stiffness | lateral stiffness at the base | base_stiffness
+krb | k_{\theta\mathrm{b}} | rotational stiffness | rotational stiffness at the base | base_rotation_stiffness
+kt | k_\mathrm{t} | stiffness | lateral stiffness at the top | top_stiffness
+krt | k_{\theta\mathrm{t}} | rotational stiffness | rotational stiffness at the top | top_rotation_stiffness
+mt | m_\mathrm{t} | mass | mass at the top | top_mass
+He | H_\mathrm{e} | length | equivalent depth of fixity below the base | embedment
+
 # The collision
 m | m_1 + m_2 | mass | total mass of the truck | truck_mass
 V | V | speed | speed at first touch | speed

@@ -19,6 +19,7 @@ _DEFINITIONS = """
     s = [time]; ms = 0.001 s; minute = 60 s = min; h = 3600 s; Hz = 1 / s
     N = kg * m / s ** 2; kN = 1000 N; MN = 1e6 N; GN = 1e9 N
     lbf = 9.80665 lb * m / s ** 2; kip = 1000 lbf
+    rad = [angle]
     Pa = N / m ** 2; kPa = 1000 Pa; MPa = 1e6 Pa; GPa = 1e9 Pa
     psi = lbf / inch ** 2; ksi = kip / inch ** 2
     J = N * m; kJ = 1000 J; MJ = 1e6 J; kph = km / h; mph = mile / h
@@ -42,6 +43,9 @@ DIMENSIONS = {
     "density": Dimension("kg/m^3", "a density", "kg/m^3, lb/ft^3"),
     "speed": Dimension("m/s", "a speed", "km/h, m/s, mph"),
     "stiffness": Dimension("N/m", "a stiffness", "kN/m, MN/m, kip/in"),
+    "rotational stiffness": Dimension(
+        "N*m/rad", "a rotational stiffness", "kN*m/rad, MN*m/rad, kip*ft/rad"
+    ),
     "frequency": Dimension("Hz", "a frequency", "Hz"),
     "time": Dimension("s", "a time", "ms, s"),
     "energy": Dimension("J", "an energy", "kJ, MJ"),
@@ -165,6 +169,9 @@ QUANTITIES = {
     "shear rigidity": Quantity(("MN", "MN"), ("kip", "kip"), 5),
     "flexibility": Quantity(("m/MN", "m/MN"), ("ft/kip", "ft/kip"), 5),
     "stiffness": Quantity(("MN/m", "MN/m"), ("kip/ft", "kip/ft"), 5),
+    "rotational stiffness": Quantity(
+        ("MN*m/rad", "MN·m/rad"), ("kip*ft/rad", "kip·ft/rad"), 5
+    ),
     "mass stiffness": Quantity(("kg/s^2", "kg/s²"), ("lb/s^2", "lb/s²"), 5),
     "damping": Quantity(("kN*s/m", "kN·s/m"), ("kip*s/ft", "kip·s/ft"), 4),
     "frequency": Quantity(("Hz", "Hz"), ("Hz", "Hz"), 4),

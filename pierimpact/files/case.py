@@ -166,6 +166,12 @@ def _column(inputs: Inputs) -> PierColumn:
         density=inputs.density,
         base=inputs.base,
         top=inputs.top,
+        base_stiffness=inputs.base_stiffness,
+        base_rotation_stiffness=inputs.base_rotation_stiffness,
+        top_stiffness=inputs.top_stiffness,
+        top_rotation_stiffness=inputs.top_rotation_stiffness,
+        top_mass=inputs.top_mass or 0.0,
+        embedment=inputs.embedment or 0.0,
     )
 
 

@@ -107,6 +107,12 @@ class Inputs(BaseModel):
     density: Positive
     base: EndCondition
     top: EndCondition
+    base_stiffness: Positive | None = None
+    base_rotation_stiffness: Positive | None = None
+    top_stiffness: Positive | None = None
+    top_rotation_stiffness: Positive | None = None
+    top_mass: Positive | None = None
+    embedment: Positive | None = None
     truck: Text
     truck_mass: Positive | None = None
     speed: Positive
@@ -115,6 +121,7 @@ class Inputs(BaseModel):
     units: Literal["SI", "US"] = "SI"
     shear_resistance: Positive | None = None
     moment_resistance: Positive | None = None
+    member_forces: Literal["larger", "beam", "static"] = "larger"
     assumed: Annotated[dict[str, str], _named(_texts_by_key)] = {}
     sources: Annotated[dict[str, str], _named(_texts_by_key)] = {}
     notes: Annotated[tuple[str, ...], _named(_texts)] = ()
