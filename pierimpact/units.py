@@ -169,9 +169,7 @@ QUANTITIES = {
     "shear rigidity": Quantity(("MN", "MN"), ("kip", "kip"), 5),
     "flexibility": Quantity(("m/MN", "m/MN"), ("ft/kip", "ft/kip"), 5),
     "stiffness": Quantity(("MN/m", "MN/m"), ("kip/ft", "kip/ft"), 5),
-    "rotational stiffness": Quantity(
-        ("MN*m/rad", "MN·m/rad"), ("kip*ft/rad", "kip·ft/rad"), 5
-    ),
+    "rotational stiffness": Quantity(("MN*m/rad", "MN·m/rad"), ("kip*ft/rad", "kip·ft/rad"), 5),
     "mass stiffness": Quantity(("kg/s^2", "kg/s²"), ("lb/s^2", "lb/s²"), 5),
     "damping": Quantity(("kN*s/m", "kN·s/m"), ("kip*s/ft", "kip·s/ft"), 4),
     "frequency": Quantity(("Hz", "Hz"), ("Hz", "Hz"), 4),

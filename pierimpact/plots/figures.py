@@ -1,13 +1,12 @@
 """Figures, drawn as SVG with text as outlines: they look the same whatever fonts there are."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from pierimpact.collision.history import CollisionHistory
 from pierimpact.design.sensitivity import Sensitivity, Variation
-from pierimpact.pier.member_forces import MemberForces
+from pierimpact.pier.member_forces import MemberForceHistory, MemberForces
 from pierimpact.plots.collision import mark_peaks
 from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, note, sheet_figure, to_svg
 from pierimpact.units import printed, unit_of, unit_size
@@ -96,13 +95,22 @@ def name_spectra(panels: Any, frequency: Any, models: tuple[Any, Any], system: s
     panels[0].legend(reverse=True, loc="upper left")
 
 
-def draw_member_forces(forces: MemberForces, system: str) -> str:
+def draw_member_forces(
+    forces: MemberForces,
+    beam: MemberForceHistory | None,
+    resistances: tuple[float | None, float | None],
+    system: str,
+) -> str:
     """Draw the column with its force, and the diagrams of shear and moment; return SVG.
 
     Parameters
     ----------
     forces : MemberForces
-        The member forces.
+        The member forces under a static force.
+    beam : MemberForceHistory or None
+        Those of the column as a beam, for the envelopes.
+    resistances : tuple of float or None
+        Shear resistance [N] and moment resistance [N m].
     system : {"SI", "US"}
         Units to print in.
     """
@@ -117,36 +125,52 @@ def draw_member_forces(forces: MemberForces, system: str) -> str:
         column.text(-0.85, impact, f"{force}\n", va="center", fontsize=8.5)
         column.spines["bottom"].set_visible(False)
         height = f"Height above the base [{unit_of('length', system)}]"
-        column.set(ylabel=height, xlim=(-1.0, 0.5), ylim=(0.0, z[-1]), xticks=[])
-        for axes, values, quantity, name in (
-            (diagrams[0], forces.shear, "force", "Shear"),
-            (diagrams[1], forces.moment, "moment", "Moment"),
+        column.set(ylabel=height, xlim=(-1.0, 0.5), ylim=(z[0], z[-1]), xticks=[])
+        for axes, (name, quantity), resistance in zip(
+            diagrams, (("Shear", "force"), ("Moment", "moment")), resistances, strict=True
         ):
-            shown = values / unit_size(quantity, system)
+            unit = unit_size(quantity, system)
+            values = forces.shear if name == "Shear" else forces.moment
             axes.axvline(0.0, color="black", linewidth=0.8)
-            axes.fill_betweenx(z, 0.0, shown, color=BLUE, alpha=0.15, linewidth=0.0)
-            axes.plot(shown, z, color=BLUE, linewidth=1.3)
+            axes.plot(values / unit, z, color=VERMILION, linewidth=1.3)
+            if beam is None:
+                axes.fill_betweenx(z, 0.0, values / unit, color=VERMILION, alpha=0.1, linewidth=0.0)
+                labels = _labelled_corners(forces.z, values, name)
+            else:
+                heights = beam.z / unit_size("length", system)
+                most, least, extremes = (
+                    (beam.largest_shear, beam.smallest_shear, beam.shear_extremes)
+                    if name == "Shear"
+                    else (beam.largest_moment, beam.smallest_moment, beam.moment_extremes)
+                )
+                axes.fill_betweenx(
+                    heights, least / unit, most / unit, color=BLUE, alpha=0.18, linewidth=0.0
+                )
+                for edge in (least, most):
+                    axes.plot(edge / unit, heights, color=BLUE, linewidth=0.8)
+                labels = [(extreme.z, extreme.value) for extreme in extremes if extreme.value]
+            if resistance is not None:
+                for side in (-resistance, resistance):
+                    axes.axvline(side / unit, color=GREY, linewidth=1.0, dashes=(4, 3))
             axes.margins(x=0.32)
             axes.set_title(f"{name} [{unit_of(quantity, system)}]")
             axes.locator_params(axis="x", nbins=4)
-            for height, value, x in _labelled_corners(z, values, shown, name):
+            for height, value in labels:
                 words = printed(value, quantity, system).number
-                offset, ha = ((4, 0), "left") if x >= 0.0 else ((-4, 0), "right")
-                va = "center" if 0.0 < height < z[-1] else "bottom" if height == 0.0 else "top"
-                note(axes, words, (x, height), offset, ha=ha, va=va, fontsize=8.5)
+                offset, ha = ((4, 0), "left") if value >= 0.0 else ((-4, 0), "right")
+                share = (height - forces.z[0]) / (forces.z[-1] - forces.z[0])
+                va = "bottom" if share < 0.04 else "top" if share > 0.96 else "center"
+                place = value / unit, height / unit_size("length", system)
+                note(axes, words, place, offset, ha=ha, va=va, fontsize=8.5)
         return to_svg(figure)
 
 
-def _labelled_corners(z: Any, values: Any, shown: Any, name: str) -> Iterator[tuple[Any, Any, Any]]:
-    """Yield height, value and place of the values to print: each stretch or corner once."""
+def _labelled_corners(z: Any, values: Any, name: str) -> list[tuple[float, float]]:
+    """Return height and value of what is to be printed: each stretch or corner once."""
     if name == "Shear":
-        for first in (0, 2):
-            yield 0.5 * (z[first] + z[first + 1]), values[first], shown[first]
-    else:
-        largest = np.max(np.abs(values))
-        for corner in (0, 1, 3):
-            if abs(values[corner]) > 1e-9 * largest:
-                yield z[corner], values[corner], shown[corner]
+        return [(0.5 * (z[i] + z[i + 1]), values[i]) for i in (0, 2)]
+    largest = np.max(np.abs(values))
+    return [(z[i], values[i]) for i in (0, 1, 3) if abs(values[i]) > 1e-9 * largest]
 
 
 def draw_sensitivity(

@@ -18,10 +18,35 @@ from pierimpact.design.sensitivity import Sensitivity, sensitivity
 from pierimpact.files.case import Case
 from pierimpact.pier.column import StruckColumn
 from pierimpact.pier.equivalent import EquivalentPier
-from pierimpact.pier.member_forces import MemberForces
+from pierimpact.pier.member_forces import MemberForceHistory, MemberForces
 
 #: Windows of the moving averages that crash tests report [s].
 WINDOWS = (0.010, 0.025)
+
+
+class Demand(NamedTuple):
+    """The largest magnitude of shear [N] or moment [N m] anywhere on the column, by two methods."""
+
+    static: float  #: under the design reaction as a static force
+    beam: float | None  #: during the collision with the column as a beam; None if not calculated
+    asked: str  #: "larger", "beam" or "static"
+
+    @property
+    def method(self) -> str:
+        """The method that governs: "beam" or "static"."""
+        if self.asked != "larger":
+            return self.asked
+        return "beam" if self.beam is not None and self.beam > self.static else "static"
+
+    @property
+    def value(self) -> float:
+        """The governing one."""
+        return self.beam if self.method == "beam" and self.beam is not None else self.static
+
+    @property
+    def ratio(self) -> float | None:
+        """Static over beam [-]."""
+        return None if self.beam is None else self.static / self.beam
 
 
 class CodeEffect(NamedTuple):
@@ -103,6 +128,34 @@ class Calculation:
         return self.struck.member_forces(self.design_force)
 
     @cached_property
+    def beam_forces(self) -> MemberForceHistory | None:
+        """Member forces of the column as a beam; None where the case asks for static ones."""
+        inputs = self.case.inputs
+        if inputs.member_forces == "static":
+            return None
+        beam = self.case.column.beam(self.struck.impact_height, inputs.damping_ratio)
+        return simulate(self.case.truck, beam, inputs.speed).member_forces
+
+    @cached_property
+    def demands(self) -> dict[str, Demand]:
+        """Largest "shear" and "moment"."""
+        static, beam = self.member_forces, self.beam_forces
+        by_beam = (
+            {"shear": None, "moment": None}
+            if beam is None
+            else {
+                "shear": beam.shear_extremes.governing.value,
+                "moment": beam.moment_extremes.governing.value,
+            }
+        )
+        by_force = {"shear": static.largest_shear.value, "moment": static.largest_moment.value}
+        asked = self.case.inputs.member_forces
+        return {
+            name: Demand(abs(value), None if by_beam[name] is None else abs(by_beam[name]), asked)
+            for name, value in by_force.items()
+        }
+
+    @cached_property
     def average_forces(self) -> dict[float, AverageForce | None]:
         """The largest moving averages by window [s]; None where the collision is over sooner."""
         end = self.history.time[-1]
@@ -122,14 +175,11 @@ class Calculation:
     @property
     def utilisations(self) -> dict[str, float]:
         """Demand over resistance, "shear" and "moment", where the case gives a resistance [-]."""
-        inputs, forces = self.case.inputs, self.member_forces
-        demands = {
-            "shear": (forces.largest_shear.value, inputs.shear_resistance),
-            "moment": (forces.largest_moment.value, inputs.moment_resistance),
-        }
+        inputs = self.case.inputs
+        resistances = {"shear": inputs.shear_resistance, "moment": inputs.moment_resistance}
         return {
-            name: abs(demand) / resistance
-            for name, (demand, resistance) in demands.items()
+            name: self.demands[name].value / resistance
+            for name, resistance in resistances.items()
             if resistance is not None
         }
 

@@ -8,7 +8,7 @@ from pierimpact.report.sheet.design_procedure import DesignProcedure
 from pierimpact.report.sheet.equivalent_pier import EquivalentPierSteps
 from pierimpact.report.sheet.full_model import FullModel
 from pierimpact.report.sheet.inputs import Inputs
-from pierimpact.report.sheet.member_forces import MemberForcesUnderReaction
+from pierimpact.report.sheet.member_forces import MemberForces
 from pierimpact.report.sheet.nomenclature import Closing
 from pierimpact.report.sheet.sensitivity import Variations
 from pierimpact.report.sheet.summary import Summary
@@ -34,7 +34,7 @@ class Sheet:
         self.pier = EquivalentPierSteps(self.calculation)
         self.procedure = DesignProcedure(self.calculation)
         self.model = FullModel(self.calculation)
-        self.member_forces = MemberForcesUnderReaction(self.calculation)
+        self.member_forces = MemberForces(self.calculation)
         self.codes = Codes(self.calculation)
         self.sensitivity = Variations(self.calculation)
         sections = (self.inputs, self.pier, self.procedure, self.model, self.member_forces)

@@ -1,97 +1,140 @@
-"""Member forces under the design reaction, their diagrams, and utilisations."""
+"""Member forces by the beam and under the static reaction, their diagrams, and utilisations."""
+
+import numpy as np
 
 from pierimpact.plots.figures import draw_member_forces
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Inline, Tex
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
-from pierimpact.report.sheet.summary import verdict
+from pierimpact.report.sheet.summary import DEMANDS, METHODS, verdict
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
 
 
-class MemberForcesUnderReaction(Section):
-    """The design reaction as a static force."""
+class MemberForces(Section):
+    """The forces in the column by two methods: the column as a beam, and the static reaction."""
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the member forces, by name."""
         return {"V_max": "tab-members", "M_max": "tab-members"}
 
     def table(self) -> Block:
-        """Return support forces and extreme member forces under the design reaction."""
-        forces = self.calculation.member_forces
-        values = [
-            (
-                "Support force at the base",
-                r"R_\mathrm{d} \, R_\mathrm{b}",
-                forces.base_force,
-                "force",
-            ),
-            (
-                "Support force at the top",
-                r"R_\mathrm{d} \, R_\mathrm{t}",
-                forces.top_force,
-                "force",
-            ),
-            ("Moment at the base", r"R_\mathrm{d} \, M_\mathrm{b}", forces.base_moment, "moment"),
-            (
-                "Moment at the impact",
-                r"R_\mathrm{d} \, M_\mathrm{n}",
-                forces.impact_moment,
-                "moment",
-            ),
-            ("Moment at the top", r"R_\mathrm{d} \, M_\mathrm{t}", forces.top_moment, "moment"),
-            ("Largest shear", SYMBOLS["V_max"].latex, abs(forces.largest_shear.value), "force"),
-            ("Largest moment", SYMBOLS["M_max"].latex, abs(forces.largest_moment.value), "moment"),
-        ]
+        """Return shear and moment at base, impact and top, and the largest, by both methods."""
+        result = self.calculation
+        static, beam = result.member_forces, result.beam_forces
+        rows: list[list[Inline]] = []
+        for name, symbol, corner, quantity in (
+            ("Shear at the base", r"R_\mathrm{d} \, R_\mathrm{b}", 0, "force"),
+            ("Shear at the top", r"-R_\mathrm{d} \, R_\mathrm{t}", 3, "force"),
+            ("Moment at the base", r"R_\mathrm{d} \, M_\mathrm{b}", 0, "moment"),
+            ("Moment at the impact", r"R_\mathrm{d} \, M_\mathrm{n}", 1, "moment"),
+            ("Moment at the top", r"R_\mathrm{d} \, M_\mathrm{t}", 3, "moment"),
+        ):
+            of_static = static.shear if quantity == "force" else static.moment
+            rows.append([name, Tex(symbol), self.number(float(of_static[corner]), quantity)])
+            if beam is not None:
+                place = int(np.argmin(np.abs(beam.z - static.z[corner])))
+                ends = (
+                    (beam.largest_shear, beam.smallest_shear)
+                    if quantity == "force"
+                    else (beam.largest_moment, beam.smallest_moment)
+                )
+                rows[-1] += [self.number(float(envelope[place]), quantity) for envelope in ends]
+            rows[-1].append(self.unit(quantity))
+        for name, quantity in DEMANDS.items():
+            demand = result.demands[name]
+            sign = SYMBOLS["V_max" if name == "shear" else "M_max"].latex
+            rows.append([f"Largest {name}", Tex(sign), self.number(demand.static, quantity)])
+            if demand.beam is not None:
+                rows[-1] += [self.number(demand.beam, quantity), ""]
+            rows[-1].append(self.unit(quantity))
+        by_beam = () if beam is None else (decimal("Beam, largest"), decimal("Beam, smallest"))
         return Table(
             label="tab-members",
-            caption="Member forces under the design reaction as a static force at the impact.",
-            columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
-            rows=[
-                [name, Tex(symbol), *self.shown(value, quantity)]
-                for name, symbol, value, quantity in values
-            ],
+            caption="Shear and moment: under the design reaction as a static force at the impact"
+            + ("." if beam is None else ", and during the collision with the column as a beam."),
+            columns=columns("Quantity", "Static symbol", decimal("Static"), *by_beam, "Unit"),
+            rows=rows,
             strong=[5, 6],
         )
 
+    def comparison(self) -> Block:
+        """Return where and when the largest forces of the beam are, and which method governs."""
+        result = self.calculation
+        beam, demands = result.beam_forces, result.demands
+        if beam is None:
+            return Paragraph(
+                "The case asks for static member forces: the column was not calculated as a beam."
+            )
+        sentences = []
+        for name, extremes in (("shear", beam.shear_extremes), ("moment", beam.moment_extremes)):
+            extreme, ratio = extremes.governing, demands[name].ratio
+            place = self.shown(extreme.z, "length")
+            time = self.shown(extreme.time, "time")
+            sentences.append(
+                f"The largest {name} of the beam is at {place} above the base, {time} after first "
+                f"touch; the static one is {rounded(ratio or 0.0, 3)} times it."
+            )
+        choice = {
+            "larger": "The larger of the two governs each check.",
+            "beam": "The case asks for the checks to be by the beam.",
+        }[self.case.inputs.member_forces]
+        return Paragraph(" ".join([*sentences, choice]))
+
     def diagrams(self) -> Block:
         """Return the diagrams of shear and moment."""
-        forces = self.calculation.member_forces
+        result, inputs = self.calculation, self.case.inputs
+        forces = result.member_forces
         height = self.shown(forces.impact_height, "length", given=True)
-        shear = self.shown(forces.largest_shear.value, "force")
-        moment = self.shown(forces.largest_moment.value, "moment")
+        largest = {
+            name: self.shown(result.demands[name].value, quantity)
+            for name, quantity in DEMANDS.items()
+        }
+        envelope = (
+            ""
+            if result.beam_forces is None
+            else ("; shaded, the envelope of both signs with the column as a beam")
+        )
+        given = inputs.shear_resistance is not None or inputs.moment_resistance is not None
         return Figure(
             label="fig-members",
-            caption="Shear and moment under the design reaction; moment positive where the far "
-            "face is in tension.",
+            caption="Shear and moment under the design reaction (lines)"
+            + envelope
+            + ("; dashed, the resistances" if given else "")
+            + ". Moment positive where the far face is in tension.",
             alt=f"The column with the design reaction at {height}, and its diagrams. The largest "
-            f"shear is {shear}, the largest moment {moment}.",
-            svg=draw_member_forces(forces, self.system),
+            f"shear is {largest['shear']}, the largest moment {largest['moment']}.",
+            svg=draw_member_forces(
+                forces,
+                result.beam_forces,
+                (inputs.shear_resistance, inputs.moment_resistance),
+                self.system,
+            ),
         )
 
     def utilisation(self) -> Block:
         """Return demand, resistance, utilisation and verdict of shear and moment."""
-        inputs, forces = self.case.inputs, self.calculation.member_forces
-        if not self.calculation.utilisations:
+        inputs, result = self.case.inputs, self.calculation
+        if not result.utilisations:
             return Paragraph("The case gives no resistance: utilisations are not calculated.")
         rows: list[list[Inline]] = []
-        for name, demand, resistance, quantity in (
-            ("Shear", forces.largest_shear.value, inputs.shear_resistance, "force"),
-            ("Moment", forces.largest_moment.value, inputs.moment_resistance, "moment"),
-        ):
-            shown, unit = self.shown(abs(demand), quantity)
-            ratio = self.calculation.utilisations.get(name.lower())
+        resistances = (inputs.shear_resistance, inputs.moment_resistance)
+        for (name, quantity), resistance in zip(DEMANDS.items(), resistances, strict=True):
+            demand = result.demands[name]
+            shown, unit = self.shown(demand.value, quantity)
+            cells: list[Inline] = [name.capitalize(), METHODS[demand.method], shown]
+            ratio = result.utilisations.get(name)
             if ratio is None or resistance is None:
-                rows.append([name, shown, "not given", unit, "", "not checked"])
+                rows.append([*cells, "not given", unit, "", "not checked"])
                 continue
             limit = self.number(resistance, quantity, given=True)
-            rows.append([name, shown, limit, unit, rounded(ratio, 3), verdict(ratio)])
+            rows.append([*cells, limit, unit, rounded(ratio, 3), verdict(ratio)])
         symbols = {name: Tex(SYMBOLS[name].latex) for name in ("V_max", "M_max", "V_R", "M_R")}
         return Table(
             label="tab-utilisation",
             caption=(
-                "Utilisation: the largest member force, ",
+                "Utilisation: the largest member force by the method that governs, ",
                 symbols["V_max"],
                 " or ",
                 symbols["M_max"],
@@ -103,6 +146,7 @@ class MemberForcesUnderReaction(Section):
             ),
             columns=columns(
                 "Check",
+                "By",
                 decimal("Largest force"),
                 decimal("Resistance"),
                 "Unit",
@@ -110,4 +154,9 @@ class MemberForcesUnderReaction(Section):
                 wide("Verdict"),
             ),
             rows=rows,
+            strong=[
+                number
+                for number, name in enumerate(DEMANDS)
+                if result.utilisations.get(name, 0.0) > 1.0
+            ],
         )

@@ -16,6 +16,13 @@ from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, printed, rounded
 
+#: Static over beam below which the static member forces are called unsafe.
+UNSAFE = 0.95
+#: The member forces that are checked, and what kind of quantity they are.
+DEMANDS = {"shear": "force", "moment": "moment"}
+#: The methods by which they are found, in words.
+METHODS = {"beam": "column as a beam", "static": "static reaction"}
+
 
 class Summary(Section):
     """The first page."""
@@ -72,13 +79,12 @@ class Summary(Section):
 
     def _demand(self, name: str) -> tuple[str, Printed, str]:
         """Return the utilisation where there is a resistance, else the demand."""
-        forces, quantity = self.calculation.member_forces, "force" if name == "shear" else "moment"
-        largest = forces.largest_shear if name == "shear" else forces.largest_moment
-        demand = self.shown(abs(largest.value), quantity)
+        demand = self.calculation.demands[name]
+        shown, method = self.shown(demand.value, DEMANDS[name]), METHODS[demand.method]
         ratio = self.calculation.utilisations.get(name)
         if ratio is None:
-            return f"Largest {name}", demand, "no resistance given"
-        words = f"{demand}: {verdict(ratio)}"
+            return f"Largest {name}", shown, f"{method}; no resistance given"
+        words = f"{shown}, {method}: {verdict(ratio)}"
         return f"Utilisation in {name}", Printed(rounded(ratio, 3), ""), words
 
     def governing_statement(self) -> Block:
@@ -98,8 +104,21 @@ class Summary(Section):
             f"{contacts}The {self.calculation.governs} peak governs. The design reaction is that "
             "of the design procedure, which can be followed by hand, or the peak of the full model "
             f"if that is larger; here it is that of the {self.calculation.governing_method}. "
-            "Member forces, utilisations and the comparison with codes are under this reaction as "
-            "a static force."
+            f"The comparison with codes is under this reaction as a static force. {self._members()}"
+        )
+
+    def _members(self) -> str:
+        asked = self.case.inputs.member_forces
+        if asked == "static":
+            return "So are member forces and utilisations, as the case asks."
+        larger = (
+            ""
+            if asked == "beam"
+            else (", or those under the static reaction where they are larger")
+        )
+        return (
+            "Member forces and utilisations are those of the same collision with the column as a "
+            f"beam{larger}."
         )
 
     def warnings(self) -> Block:
@@ -122,6 +141,12 @@ def limitations(calculation: Calculation) -> Iterator[str]:
     for name, ratio in calculation.utilisations.items():
         if ratio > 1.0:
             yield f"The {name} is {rounded(ratio, 3)} times the resistance."
+    for name, demand in calculation.demands.items():
+        if demand.ratio is not None and demand.ratio < UNSAFE:
+            yield (
+                f"The column as a beam takes {rounded(1.0 / demand.ratio, 3)} times the {name} that "
+                "the static reaction gives: one degree of freedom does not hold for this column."
+            )
     limits = "; ".join(limits_of_the_study(design.outside, design.overlapping, case.inputs.units))
     if limits:
         yield (
