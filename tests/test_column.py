@@ -288,7 +288,7 @@ def test_mechanisms_are_refused(base, top):
         ({"top": None}, "top must be one of fixed, pinned, free, got None"),
         (
             {"section": 0.9},
-            r"section must be a CircularSection or a RectangularSection, got 0\.9",
+            r"section must be a Section, got 0\.9",
         ),
     ],
 )

@@ -9,24 +9,15 @@ from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, not_negative, number, one_of, positive
-from pierimpact.handcalc import Calculation, Real
+from pierimpact.handcalc import Calculation
 from pierimpact.pier.beam import BeamPier, Part, beam_pier
 from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass
 from pierimpact.pier.member_forces import MemberForces
+from pierimpact.pier.rigidities import rigidities
 from pierimpact.pier.sections import Section
 from pierimpact.pier.unit_force import BY_ENDS
 
 END_CONDITIONS = ("fixed", "pinned", "free")
-
-
-@Calculation
-def rigidities(E: Real, nu: Real, rho: Real, A: Real, I: Real, kappa: Real) -> dict[str, Real]:
-    """The rigidities of a section, and its mass per length."""
-    EI = E * I
-    G = E / (2 * (1 + nu))
-    GA = kappa * G * A
-    mbar = rho * A
-    return locals()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,8 +30,8 @@ class PierColumn:
     ----------
     height : float
         Column height H from base to top [m].
-    section : CircularSection or RectangularSection
-        Cross-section.
+    section : Section
+        Cross-section, of `pierimpact.pier.sections`.
     elastic_modulus : float
         Young's modulus E [Pa].
     poisson_ratio : float, optional
@@ -50,12 +41,17 @@ class PierColumn:
     base, top : {"fixed", "pinned", "free"}, optional
         End conditions. A fixed end neither moves nor turns, a pinned end turns, a free end does
         both.
+    stiffness_factor : float, optional
+        Share ψ of the gross EI that is effective in flexure, as of a cracked section: above 0 and
+        at most 1, since cracks only take stiffness away [-]. Shear is not reduced.
+    effective_stiffness : float, optional
+        Effective flexural rigidity, instead of a share of the gross one [N m²].
 
     Raises
     ------
     InputError
-        When a value is out of its range, or the ends leave the column a mechanism: one end must
-        be fixed, or both pinned.
+        When a value is out of its range, both kinds of stiffness are given, or the ends leave the
+        column a mechanism: one end must be fixed, or both pinned.
     """
 
     height: float
@@ -65,18 +61,19 @@ class PierColumn:
     density: float
     base: str = "fixed"
     top: str = "pinned"
+    stiffness_factor: float = 1.0
+    effective_stiffness: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("height", "elastic_modulus", "density"):
             object.__setattr__(self, name, positive(name, getattr(self, name)))
         if not isinstance(self.section, Section):
-            raise InputError(
-                f"section must be a CircularSection or a RectangularSection, got {self.section!r}"
-            )
+            raise InputError(f"section must be a Section, got {self.section!r}")
         poisson_ratio = not_negative("poisson_ratio", self.poisson_ratio)
         if poisson_ratio > 0.5:
             raise InputError(f"poisson_ratio must be at most 0.5, got {poisson_ratio:g}")
         object.__setattr__(self, "poisson_ratio", poisson_ratio)
+        self._check_stiffness()
         one_of("base", self.base, END_CONDITIONS)
         one_of("top", self.top, END_CONDITIONS)
         ends = (self.base, self.top)
@@ -86,17 +83,45 @@ class PierColumn:
                 f"{self.base!r} and top {self.top!r}: the column would be a mechanism"
             )
 
+    def _check_stiffness(self) -> None:
+        factor = positive("stiffness_factor", self.stiffness_factor)
+        if factor > 1.0:
+            raise InputError(f"stiffness_factor must be at most 1, got {factor:g}")
+        object.__setattr__(self, "stiffness_factor", factor)
+        if self.effective_stiffness is None:
+            return
+        stiffness = positive("effective_stiffness", self.effective_stiffness)
+        if factor < 1.0:
+            raise InputError(
+                "give only one of stiffness_factor and effective_stiffness, "
+                f"got {factor:g} and {stiffness:g} N m²"
+            )
+        object.__setattr__(self, "effective_stiffness", stiffness)
+
+    @cached_property
+    def calculations(self) -> tuple[Calculation, ...]:
+        """What leads from dimensions and material to rigidities and mass per length, in order."""
+        cracked, given = self.stiffness_factor < 1.0, self.effective_stiffness is not None
+        return self.section.calculation, *rigidities(self.section, cracked=cracked, given=given)
+
     @cached_property
     def values(self) -> dict[str, float]:
         """Dimensions, material, rigidities and mass per length, by symbol."""
-        section = self.section.values
-        sizes = {name: section[name] for name in ("A", "I", "kappa")}
-        material = {"E": self.elastic_modulus, "nu": self.poisson_ratio, "rho": self.density}
-        return {**section, **rigidities(**material, **sizes), "H": self.height}
+        found = self.section.values | {
+            "E": self.elastic_modulus,
+            "nu": self.poisson_ratio,
+            "rho": self.density,
+            "H": self.height,
+            "psi": self.stiffness_factor,
+            "EIe": self.effective_stiffness or 0.0,
+        }
+        for calculation in self.calculations[1:]:
+            found |= calculation(**{name: found[name] for name in calculation.given})
+        return found
 
     @property
     def flexural_rigidity(self) -> float:
-        """Flexural rigidity EI [N m²]."""
+        """Effective flexural rigidity EI [N m²]."""
         return self.values["EI"]
 
     @property
@@ -106,7 +131,7 @@ class PierColumn:
 
     @property
     def mass_per_length(self) -> float:
-        """Mass per unit length m̄ = ρA [kg/m]."""
+        """Mass per unit length m̄ = ρA, of filled tubes ρA_m [kg/m]."""
         return self.values["mbar"]
 
     def struck_at(self, impact_height: float) -> "StruckColumn":
@@ -146,7 +171,7 @@ class PierColumn:
         """
         equivalent = self.equivalent(impact_height, damping_ratio)
         joints = np.unique([0.0, float(impact_height), self.height]).tolist()
-        rotary_inertia = self.density * self.section.second_moment
+        rotary_inertia = self.density * self.section.mass_second_moment
         uniform = (self.flexural_rigidity, self.shear_rigidity, self.mass_per_length)
         parts = [Part(*stretch, *uniform, rotary_inertia) for stretch in pairwise(joints)]
         struck = joints.index(float(impact_height))
