@@ -8,10 +8,12 @@ import numpy as np
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
 from pierimpact.files.case import concrete_modulus
 from pierimpact.pier.equivalent import equivalent_mass, vibration
+from pierimpact.pier.sections import FreeSection
 from pierimpact.pier.unit_force import BY_ENDS
+from pierimpact.plots.section import draw_section
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Ref, Tex, in_tex, inline, number_in_tex
-from pierimpact.report.document.numbered import Equation, Steps, Table, columns, decimal
+from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
 from pierimpact.report.document.step_writer import StepWriter
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
@@ -76,6 +78,24 @@ class EquivalentPierSteps(Section):
             f"where they stand beside a stiffness, 1 {self.unit('stiffness')} is "
             f"{printed(size, 'share', 'SI', given=True)} {self.unit('mass stiffness')}. "
             "Every printed value is rounded, so that a check by hand may differ in the last figure."
+        )
+
+    def section_drawing(self) -> Block:
+        """Return the section drawn to scale, with its dimensions."""
+        section, shape = self.case.column.section, self.case.inputs.column_shape
+        if isinstance(section, FreeSection):
+            return Paragraph("The case gives the properties of the section, and not its shape.")
+        sizes = [
+            f"{SYMBOLS[symbol].meaning} {self.shown(value, 'section length', given=True)}"
+            for symbol, value in section.values.items()
+            if symbol in section.dimensions.values()
+            and SYMBOLS[symbol].quantity == "section length"
+        ]
+        return Figure(
+            label="fig-section",
+            caption=f"Section of the column, {shape}, to scale.",
+            alt=f"The section, {shape}: {', '.join(sizes)}. The truck comes from the left.",
+            svg=draw_section(section, self.system),
         )
 
     def section(self) -> Steps:
