@@ -86,7 +86,8 @@ def outline(section: Section, inset: float = 0.0) -> NDArray[np.float64]:
     if "r" in values:
         ends = np.array([np.cos(turn), np.sin(turn)]).T
         return np.asarray(values["r"] * ends + np.sign(ends.round(9)) * (half - values["r"]))
-    return half * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+    corners = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+    return np.asarray(half * corners)
 
 
 def _named(name: str, values: dict[str, float], system: str) -> str:

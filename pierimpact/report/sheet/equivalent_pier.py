@@ -20,7 +20,7 @@ from pierimpact.symbols import SYMBOLS
 from pierimpact.units import printed, rounded, unit_size
 
 _GIVEN = (
-    *("D", "b", "h", "t", "Df", "ns", "Av", "alpha_E", "alpha_rho", "kappa"),
+    *("D", "b", "h", "t", "Df", "ns", "Av", "alpha_E", "alpha_rho"),
     *("fc", "E", "nu", "rho", "psi", "EIe", "H", "z", "y", "zeta"),
 )
 
