@@ -12,7 +12,17 @@ if TYPE_CHECKING:
     from pierimpact.files.trucks import load_truck
     from pierimpact.pier.column import PierColumn, Step
     from pierimpact.pier.equivalent import EquivalentPier
-    from pierimpact.pier.sections import CircularSection, RectangularSection
+    from pierimpact.pier.sections import (
+        CircularSection,
+        FilledCircularSection,
+        FilledRectangularSection,
+        FreeSection,
+        HollowCircularSection,
+        HollowRectangularSection,
+        OblongSection,
+        RectangularSection,
+        RegularPolygonSection,
+    )
     from pierimpact.vehicle.crush import CrushSpring
     from pierimpact.vehicle.truck import Truck
 
@@ -23,9 +33,16 @@ __all__ = [
     "Collision",
     "CrushSpring",
     "EquivalentPier",
+    "FilledCircularSection",
+    "FilledRectangularSection",
+    "FreeSection",
+    "HollowCircularSection",
+    "HollowRectangularSection",
     "InputError",
+    "OblongSection",
     "PierColumn",
     "RectangularSection",
+    "RegularPolygonSection",
     "Step",
     "Truck",
     "cargo_spectrum",
@@ -51,7 +68,17 @@ _HOMES = {
     "files.trucks": ["load_truck"],
     "pier.column": ["PierColumn", "Step"],
     "pier.equivalent": ["EquivalentPier"],
-    "pier.sections": ["CircularSection", "RectangularSection"],
+    "pier.sections": [
+        "CircularSection",
+        "FilledCircularSection",
+        "FilledRectangularSection",
+        "FreeSection",
+        "HollowCircularSection",
+        "HollowRectangularSection",
+        "OblongSection",
+        "RectangularSection",
+        "RegularPolygonSection",
+    ],
     "vehicle.crush": ["CrushSpring"],
     "vehicle.truck": ["Truck"],
 }

@@ -18,6 +18,7 @@ CALLS = {
     "mod": r"%s \bmod %s",
     "sin": r"\sin(%s)",
     "sqrt": r"\sqrt{%s}",
+    "tan": r"\tan(%s)",
 }  # fmt: skip
 _NESTED = ("maximum", "minimum")
 _ALONE, _SUM, _PRODUCT, _POWER, _BASE = range(5)  # how tightly the surroundings bind

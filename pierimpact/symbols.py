@@ -17,11 +17,21 @@ top |  |  | top of the column | top
 D | D | section length | column diameter | column_diameter
 b | b | section length | column width, across the travel | column_width
 h | h | section length | column depth, along the travel | column_depth
+t | t | section length | wall thickness | column_wall_thickness
+ns | n_\mathrm{s} | ratio | number of sides of the column | column_sides
+Df | D_\mathrm{f} | section length | column width across flats | column_across_flats
+A | A | area | area | column_area
+I | I | second moment | second moment of area | column_second_moment
+Av | A_\mathrm{v} | area | shear area | column_shear_area
+alpha_E | \alpha_\mathrm{E} | ratio | elastic modulus of the steel over that of the concrete | modular_ratio
+alpha_rho | \alpha_\rho | ratio | density of the steel over that of the concrete | density_ratio
 H | H | length | column height | column_height
 E | E | modulus | elastic modulus | elastic_modulus
 fc | f_\mathrm{c}' | strength | concrete strength | concrete_strength
 nu | \nu | ratio | Poisson’s ratio | poisson_ratio
 rho | \rho | density | density | density
+psi | \psi | ratio | share of the gross flexural rigidity that is effective | stiffness_factor
+EIe | EI_\mathrm{eff} | flexural rigidity | effective flexural rigidity, as given | effective_stiffness
 
 kb | k_\mathrm{b} | stiffness | lateral stiffness at the base | base_stiffness
 krb | k_{\theta\mathrm{b}} | rotational stiffness | rotational stiffness at the base | base_rotation_stiffness
@@ -53,9 +63,24 @@ k2 | k_2 | stiffness | steep stiffness of the body spring | body_spring.stiffnes
 ku2 | k_{\mathrm{u}2} | stiffness | unloading stiffness of the body spring | body_spring.unloading_stiffness
 
 # Section and equivalent pier
+Di | D_\mathrm{i} | section length | inner diameter
+bi | b_\mathrm{i} | section length | inner width
+hi | h_\mathrm{i} | section length | inner depth
+r | r | section length | radius of the round ends
+c | c | section length | length of the straight sides
+ls | \ell | section length | length of a side
+Ac | A_\mathrm{c} | area | area of the concrete
+As | A_\mathrm{s} | area | area of the steel
+Am | A_\mathrm{m} | area | area of the same mass in concrete
+Ic | I_\mathrm{c} | second moment | second moment of area of the concrete
+Is | I_\mathrm{s} | second moment | second moment of area of the steel
+Sf | S_\mathrm{f} | first moment | first moment of area of a flange or a round end
+U | U | shear integral | integral of $S^2/b$ over the depth, $S$ being the first moment of the area beyond a cut of width $b$
+Uw | U_\mathrm{w} | shear integral | part of the integral $U$ from the webs or the straight sides
+Uf | U_\mathrm{f} | shear integral | part of the integral $U$ from the flanges or the round ends
+Uh | U_\mathrm{h} | shear integral | part of the integral $U$ from the shear along the flanges
+kappa_s | \kappa_\mathrm{s} | share | shear coefficient of the steel
 kappa | \kappa | share | shear coefficient
-A | A | area | area
-I | I | second moment | second moment of area
 EI | EI | flexural rigidity | flexural rigidity
 G | G | modulus | shear modulus
 GA | \kappa GA | shear rigidity | shear rigidity

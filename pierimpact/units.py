@@ -36,9 +36,12 @@ class Dimension(NamedTuple):
 
 DIMENSIONS = {
     "length": Dimension("m", "a length", "m, mm, ft, in"),
+    "area": Dimension("m^2", "an area", "m^2, mm^2, in^2"),
+    "second moment": Dimension("m^4", "a second moment of area", "m^4, cm^4, in^4"),
     "mass": Dimension("kg", "a mass", "kg, t, lb"),
     "force": Dimension("N", "a force", "kN, MN, lbf, kip"),
     "moment": Dimension("N*m", "a moment", "kN*m, MN*m, kip*ft"),
+    "flexural rigidity": Dimension("N*m^2", "a flexural rigidity", "MN*m^2, kN*m^2, kip*ft^2"),
     "pressure": Dimension("Pa", "a stress", "MPa, GPa, psi, ksi"),
     "density": Dimension("kg/m^3", "a density", "kg/m^3, lb/ft^3"),
     "speed": Dimension("m/s", "a speed", "km/h, m/s, mph"),
@@ -57,7 +60,7 @@ _NUMBER = re.compile(
 )
 _FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?[1-9])?"
 _EXPRESSION = re.compile(rf"{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
-_MARKS = str.maketrans({"·": "*", "²": "^2", "³": "^3", "⁴": "^4"})
+_MARKS = str.maketrans({"·": "*", "²": "^2", "³": "^3", "⁴": "^4", "⁶": "^6"})
 
 
 @cache
@@ -160,6 +163,8 @@ QUANTITIES = {
     "section length": Quantity(("m", "m"), ("in", "in"), 5),
     "area": Quantity(("m^2", "m²"), ("in^2", "in²"), 5),
     "second moment": Quantity(("m^4", "m⁴"), ("in^4", "in⁴"), 5),
+    "first moment": Quantity(("m^3", "m³"), ("in^3", "in³"), 5),
+    "shear integral": Quantity(("m^6", "m⁶"), ("in^6", "in⁶"), 5),
     "modulus": Quantity(("GPa", "GPa"), ("ksi", "ksi"), 5),
     "strength": Quantity(("MPa", "MPa"), ("ksi", "ksi"), 5),
     "density": Quantity(("kg/m^3", "kg/m³"), ("lb/ft^3", "lb/ft³"), 5),

@@ -13,6 +13,7 @@ NAMESPACE = "{http://www.w3.org/1998/Math/MathML}"
 WORDS = {
     "sin": "math.sin",
     "cos": "math.cos",
+    "tan": "math.tan",
     "arctan": "math.atan",
     "atan2": "math.atan2",
     "max": "max",

@@ -115,7 +115,7 @@ def test_concrete_modulus_is_near_the_form_of_the_formula_in_psi():
         ({"truck": "mine.toml"}, "truck file mine.toml cannot be read"),
         (
             {"column_shape": "round"},
-            "column_shape must be 'circular' or 'rectangular', got",
+            "column_shape must be 'circular', 'rectangular', 'hollow circular', ",
         ),
         (
             {"column_diameter": None},

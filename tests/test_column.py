@@ -422,7 +422,7 @@ def test_mass_at_the_top_enters_with_the_square_of_the_shape():
         ({"top": None}, "top must be one of fixed, pinned, free, got None"),
         (
             {"section": 0.9},
-            r"section must be a CircularSection or a RectangularSection, got 0\.9",
+            r"section must be a Section, got 0\.9",
         ),
         ({"top_mass": -1.0}, "top_mass must not be negative, got -1"),
         ({"top_stiffness": -5.0}, "top_stiffness must not be negative, got -5"),

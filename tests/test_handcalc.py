@@ -12,18 +12,23 @@ from numpy import arctan2, exp, floor, hypot, maximum, minimum, mod, nan, sqrt, 
 from pierimpact.design.procedure import LEVELS
 from pierimpact.handcalc import Calculation, Step
 from pierimpact.latex import CalculationError
-from pierimpact.pier.column import rigidities
+from pierimpact.pier import rigidities, sections
 from pierimpact.pier.equivalent import equivalent_mass, vibration
-from pierimpact.pier.sections import circle, rectangle
 from pierimpact.pier.unit_force import BY_ENDS
 from pierimpact.symbols import SYMBOLS
 
 FACTOR = 2.5
 LIMIT, SHADOWED, TINY, LONG = -3.0, 7.0, 2e-5, 0.123456789
+
+
+def calculations_in(module):
+    """Return the calculations of a module by name."""
+    return [(name, found) for name, found in vars(module).items() if type(found) is Calculation]
+
+
 EVERY = {
-    "circle": circle,
-    "rectangle": rectangle,
-    "rigidities": rigidities,
+    **{f"section {name}": found for name, found in calculations_in(sections)},
+    **{f"rigidities {name}": found for name, found in calculations_in(rigidities)},
     "mass": equivalent_mass,
     "vibration": vibration,
     **LEVELS,

@@ -84,8 +84,8 @@ def test_every_unit_has_its_size():
 def test_the_printed_unit_is_the_one_divided_by(quantity, system):
     unit = unit_of(quantity, system)
     size = 1.0
-    for power, word in re.findall(r"([·/]?)([A-Za-z]+[²³⁴]?)", unit.replace("rad/s", "1/s")):
-        name, exponent = word.rstrip("²³⁴"), {"²": 2, "³": 3, "⁴": 4}.get(word[-1], 1)
+    for power, word in re.findall(r"([·/]?)([A-Za-z]+[²³⁴⁶]?)", unit.replace("rad/s", "1/s")):
+        name, exponent = word.rstrip("²³⁴⁶"), {"²": 2, "³": 3, "⁴": 4, "⁶": 6}.get(word[-1], 1)
         if name != "rad":
             (factor,) = {sizes[name] for sizes in SIZES.values() if name in sizes}
             size *= factor ** (-exponent if power == "/" else exponent)
@@ -186,7 +186,13 @@ def test_what_is_printed_parses_back(dimension, system):
     value = 1234.5678
     shown = printed(value, dimension, system)
     digits = QUANTITIES[dimension].digits
-    text = str(shown).replace("\u202f", "").replace("×10⁶", "e6").replace("×10⁷", "e7")
+    text = (
+        str(shown)
+        .replace("\u202f", "")
+        .replace("×10⁶", "e6")
+        .replace("×10⁷", "e7")
+        .replace("×10⁹", "e9")
+    )
     assert parse("value", text, dimension) == pytest.approx(value, rel=0.6 * 10 ** (1 - digits))
 
 

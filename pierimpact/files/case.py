@@ -15,11 +15,35 @@ from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.files.inputs import Inputs, read_inputs
 from pierimpact.files.trucks import TruckFile, read_truck_file
 from pierimpact.pier.column import PierColumn
-from pierimpact.pier.sections import CircularSection, RectangularSection, Section
+from pierimpact.pier.sections import (
+    CircularSection,
+    FilledCircularSection,
+    FilledRectangularSection,
+    FreeSection,
+    HollowCircularSection,
+    HollowRectangularSection,
+    OblongSection,
+    RectangularSection,
+    RegularPolygonSection,
+    Section,
+)
+from pierimpact.symbols import SYMBOLS
 from pierimpact.vehicle.truck import Truck
 
 #: Parameters of the report notebook that are no keys of a case file.
 NOTEBOOK_PARAMETERS = ("case_file", "case_sha256")
+#: Sections by column_shape.
+SHAPES: dict[str, type[Section]] = {
+    "circular": CircularSection,
+    "rectangular": RectangularSection,
+    "hollow circular": HollowCircularSection,
+    "hollow rectangular": HollowRectangularSection,
+    "oblong": OblongSection,
+    "polygonal": RegularPolygonSection,
+    "filled circular": FilledCircularSection,
+    "filled rectangular": FilledRectangularSection,
+    "free": FreeSection,
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -157,6 +181,8 @@ def concrete_modulus(strength: float) -> float:
 def _column(inputs: Inputs) -> PierColumn:
     if (inputs.elastic_modulus is None) == (inputs.concrete_strength is None):
         raise InputError("give one of elastic_modulus and concrete_strength")
+    if None not in (inputs.stiffness_factor, inputs.effective_stiffness):
+        raise InputError("give only one of stiffness_factor and effective_stiffness")
     elastic_modulus = inputs.elastic_modulus or concrete_modulus(inputs.concrete_strength or 0.0)
     return PierColumn(
         height=inputs.column_height,
@@ -172,21 +198,27 @@ def _column(inputs: Inputs) -> PierColumn:
         top_rotation_stiffness=inputs.top_rotation_stiffness,
         top_mass=inputs.top_mass or 0.0,
         embedment=inputs.embedment or 0.0,
+        stiffness_factor=1.0 if inputs.stiffness_factor is None else inputs.stiffness_factor,
+        effective_stiffness=inputs.effective_stiffness,
     )
 
 
 def _section(inputs: Inputs) -> Section:
-    sizes = ("column_diameter", "column_width", "column_depth")
-    wanted = sizes[:1] if inputs.column_shape == "circular" else sizes[1:]
-    for key in sizes:
+    shape = SHAPES[inputs.column_shape]
+    wanted = section_keys(shape)
+    for key in dict.fromkeys(key for each in SHAPES.values() for key in section_keys(each)):
         if (getattr(inputs, key) is None) == (key in wanted):
             must = "is missing: it belongs" if key in wanted else "does not belong"
             raise InputError(f"{key} {must} to column_shape {inputs.column_shape}")
-    if inputs.column_diameter is not None:
-        return CircularSection(diameter=inputs.column_diameter)
-    assert inputs.column_width is not None
-    assert inputs.column_depth is not None
-    return RectangularSection(width=inputs.column_width, depth=inputs.column_depth)
+    try:
+        return shape(**{name: getattr(inputs, key) for key, name in wanted.items()})
+    except InputError as error:  # the section does not know that it is a column's
+        raise InputError(f"column_{error}") from None
+
+
+def section_keys(shape: type[Section]) -> dict[str, str]:
+    """Return the dimensions of a section by their keys in a case file."""
+    return {SYMBOLS[symbol].key: name for name, symbol in shape.dimensions.items()}
 
 
 def _with_mass(truck: Truck, mass: float | None) -> Truck:

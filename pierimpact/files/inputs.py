@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo
 
-from pierimpact.checks import InputError, brief, known, not_negative, one_line
+from pierimpact.checks import InputError, brief, known, not_negative, one_line, positive
 from pierimpact.symbols import BY_KEY, dimension
 from pierimpact.units import parse
 
@@ -34,6 +34,10 @@ def _plain_number(name: str, value: Any) -> float:
     if isinstance(value, bool | str):
         raise InputError(f"{name} must be a plain number without unit, got {brief(value)}")
     return not_negative(name, value)
+
+
+def _factor(name: str, value: Any) -> float:
+    return positive(name, _plain_number(name, value))
 
 
 def _damping_ratio(name: str, value: Any) -> float:
@@ -81,6 +85,7 @@ def _date(name: str, value: Any) -> datetime.date:
 
 Text = Annotated[str, _named(_text)]
 Positive = Annotated[float, _named(_positive)]
+Factor = Annotated[float, _named(_factor)]
 EndCondition = Literal["fixed", "pinned", "free"]
 
 
@@ -96,15 +101,35 @@ class Inputs(BaseModel):
     checked_by: Text = "—"
     revision: Text = "—"
     date: Annotated[datetime.date, _named(_date)] = Field(default_factory=datetime.date.today)
-    column_shape: Literal["circular", "rectangular"]
+    column_shape: Literal[
+        "circular",
+        "rectangular",
+        "hollow circular",
+        "hollow rectangular",
+        "oblong",
+        "polygonal",
+        "filled circular",
+        "filled rectangular",
+        "free",
+    ]
     column_diameter: Positive | None = None
     column_width: Positive | None = None
     column_depth: Positive | None = None
+    column_wall_thickness: Positive | None = None
+    column_sides: Factor | None = None
+    column_across_flats: Positive | None = None
+    column_area: Positive | None = None
+    column_second_moment: Positive | None = None
+    column_shear_area: Positive | None = None
+    modular_ratio: Factor | None = None
+    density_ratio: Factor | None = None
     column_height: Positive
     elastic_modulus: Positive | None = None
     concrete_strength: Positive | None = None
     poisson_ratio: Annotated[float, _named(_poisson_ratio)] = 0.2
     density: Positive
+    stiffness_factor: Factor | None = None
+    effective_stiffness: Positive | None = None
     base: EndCondition
     top: EndCondition
     base_stiffness: Positive | None = None

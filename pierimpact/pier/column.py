@@ -10,27 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, not_negative, number, one_of, positive
-from pierimpact.handcalc import Calculation, Real
+from pierimpact.handcalc import Calculation
 from pierimpact.pier.arrangement import SUPPORTS, Arrangement, Part, Support, refuse_mechanism
 from pierimpact.pier.beam import BeamPier, beam_pier
 from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass
 from pierimpact.pier.member_forces import MemberForces
+from pierimpact.pier.rigidities import rigidities
 from pierimpact.pier.sections import Section
 from pierimpact.pier.static import UnitForce, unit_force
 from pierimpact.pier.unit_force import BY_ENDS
 
 END_CONDITIONS = tuple(SUPPORTS)
 _SPRINGS = ("base_stiffness", "base_rotation_stiffness", "top_stiffness", "top_rotation_stiffness")
-
-
-@Calculation
-def rigidities(E: Real, nu: Real, rho: Real, A: Real, I: Real, kappa: Real) -> dict[str, Real]:
-    """The rigidities of a section, and its mass per length."""
-    EI = E * I
-    G = E / (2 * (1 + nu))
-    GA = kappa * G * A
-    mbar = rho * A
-    return locals()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +32,7 @@ class Step:
     ----------
     height : float
         Height from which the column has the new section [m].
-    section : CircularSection or RectangularSection
+    section : Section
         Cross-section from there upward.
 
     Raises
@@ -68,8 +59,8 @@ class PierColumn:
     ----------
     height : float
         Column height H from base to top [m].
-    section : CircularSection or RectangularSection
-        Cross-section, from the base on.
+    section : Section
+        Cross-section from the base on, of `pierimpact.pier.sections`.
     elastic_modulus : float
         Young's modulus E [Pa].
     poisson_ratio : float, optional
@@ -79,6 +70,11 @@ class PierColumn:
     base, top : {"fixed", "pinned", "free"}, optional
         End conditions. A fixed end neither moves nor turns, a pinned end turns, a free end does
         both.
+    stiffness_factor : float, optional
+        Share ψ of the gross EI that is effective in flexure, as of a cracked section: above 0 and
+        at most 1, since cracks only take stiffness away [-]. Shear is not reduced.
+    effective_stiffness : float, optional
+        Effective flexural rigidity, instead of a share of the gross one [N m²].
     base_stiffness, top_stiffness : float, optional
         Lateral stiffness of what holds the end (footing, bearings); takes the place of what the
         end condition says of its deflection [N/m].
@@ -96,8 +92,8 @@ class PierColumn:
     Raises
     ------
     InputError
-        When a value is out of its range, a step is not above the one below it and within the
-        column, or the ends leave the column a mechanism.
+        When a value is out of its range, both kinds of stiffness are given, a step is not above
+        the one below it and within the column, or the ends leave the column a mechanism.
     """
 
     height: float
@@ -107,6 +103,8 @@ class PierColumn:
     density: float
     base: str = "fixed"
     top: str = "pinned"
+    stiffness_factor: float = 1.0
+    effective_stiffness: float | None = None
     base_stiffness: float | None = None
     base_rotation_stiffness: float | None = None
     top_stiffness: float | None = None
@@ -123,6 +121,7 @@ class PierColumn:
         if poisson_ratio > 0.5:
             raise InputError(f"poisson_ratio must be at most 0.5, got {poisson_ratio:g}")
         object.__setattr__(self, "poisson_ratio", poisson_ratio)
+        self._check_stiffness()
         for name in ("top_mass", "embedment", *_SPRINGS):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, not_negative(name, getattr(self, name)))
@@ -155,17 +154,46 @@ class PierColumn:
         extras = (self.steps, self.top_mass, self.embedment)
         return not any(extras) and all(getattr(self, name) is None for name in _SPRINGS)
 
+    def _check_stiffness(self) -> None:
+        factor = positive("stiffness_factor", self.stiffness_factor)
+        if factor > 1.0:
+            raise InputError(f"stiffness_factor must be at most 1, got {factor:g}")
+        object.__setattr__(self, "stiffness_factor", factor)
+        if self.effective_stiffness is None:
+            return
+        stiffness = positive("effective_stiffness", self.effective_stiffness)
+        if factor < 1.0:
+            raise InputError(
+                "give only one of stiffness_factor and effective_stiffness, "
+                f"got {factor:g} and {stiffness:g} N m²"
+            )
+        if self.steps:
+            raise InputError("effective_stiffness belongs to a column of one section, got steps")
+        object.__setattr__(self, "effective_stiffness", stiffness)
+
+    def calculations(self, section: Section) -> tuple[Calculation, ...]:
+        """Return what leads from a section and the material to its rigidities, in order."""
+        cracked, given = self.stiffness_factor < 1.0, self.effective_stiffness is not None
+        return section.calculation, *rigidities(section, cracked=cracked, given=given)
+
     @cached_property
     def values(self) -> dict[str, float]:
         """Dimensions, material, rigidities and mass per length at the base, by symbol."""
-        return {**self.section_values(self.section), "H": self.height}
+        return self.section_values(self.section)
 
     def section_values(self, section: Section) -> dict[str, float]:
         """Return dimensions, material, rigidities and mass per length of a section, by symbol."""
-        values = section.values
-        sizes = {name: values[name] for name in ("A", "I", "kappa")}
-        material = {"E": self.elastic_modulus, "nu": self.poisson_ratio, "rho": self.density}
-        return {**values, **rigidities(**material, **sizes)}
+        found = section.values | {
+            "E": self.elastic_modulus,
+            "nu": self.poisson_ratio,
+            "rho": self.density,
+            "H": self.height,
+            "psi": self.stiffness_factor,
+            "EIe": self.effective_stiffness or 0.0,
+        }
+        for calculation in self.calculations(section)[1:]:
+            found |= calculation(**{name: found[name] for name in calculation.given})
+        return found
 
     @cached_property
     def arrangement(self) -> Arrangement:
@@ -176,7 +204,8 @@ class PierColumn:
         for section, (bottom, top) in zip(sections, pairwise(joints), strict=True):
             values = self.section_values(section)
             EI, GA, mbar = (values[name] for name in ("EI", "GA", "mbar"))
-            parts.append(Part(bottom, top, EI, GA, mbar, self.density * values["I"]))
+            rotary_inertia = self.density * section.mass_second_moment
+            parts.append(Part(bottom, top, EI, GA, mbar, rotary_inertia))
         return Arrangement(tuple(parts), *self.supports, self.top_mass)
 
     @property
@@ -186,7 +215,7 @@ class PierColumn:
 
     @property
     def flexural_rigidity(self) -> float:
-        """Flexural rigidity EI [N m²]."""
+        """Effective flexural rigidity EI [N m²]."""
         return self.values["EI"]
 
     @property
@@ -196,7 +225,7 @@ class PierColumn:
 
     @property
     def mass_per_length(self) -> float:
-        """Mass per unit length m̄ = ρA [kg/m]."""
+        """Mass per unit length m̄ = ρA, of filled tubes ρA_m [kg/m]."""
         return self.values["mbar"]
 
     def struck_at(self, impact_height: float) -> "StruckColumn":
@@ -364,6 +393,4 @@ class StruckColumn:
 
 def _require_section(name: str, section: object) -> None:
     if not isinstance(section, Section):
-        raise InputError(
-            f"{name} must be a CircularSection or a RectangularSection, got {section!r}"
-        )
+        raise InputError(f"{name} must be a Section, got {section!r}")

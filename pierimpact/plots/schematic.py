@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyBboxPatch, Polygon, Rectangle
 
 from pierimpact.pier.column import StruckColumn
-from pierimpact.pier.sections import CircularSection
 from pierimpact.plots.style import BLUE, INK, MUTED, PALE, PIXEL, VERMILION
 from pierimpact.units import printed
 from pierimpact.vehicle.truck import Truck
@@ -55,8 +54,7 @@ class Scene(NamedTuple):
         """Extent of the pier in the direction of travel [m]."""
         if self.column is None:
             return _BLOCK
-        section = self.column.column.section
-        return section.diameter if isinstance(section, CircularSection) else section.depth
+        return self.column.column.section.extent
 
 
 class Frame(NamedTuple):

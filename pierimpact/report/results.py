@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict
 from pierimpact.certainty import Certainty
 from pierimpact.design.domain import Outside
 from pierimpact.report.calculation import Calculation
+from pierimpact.symbols import SYMBOLS
 
 #: MIME type of the results in the output of a notebook's cell.
 RESULTS_MIME = "application/vnd.pierimpact.report.results+json"
@@ -32,7 +33,7 @@ class Results(BaseModel):
     units: str  #: of the report, "SI" or "US"
 
     column_shape: str
-    column_sizes: tuple[float, ...]  #: diameter, or width and depth [m]
+    column_sizes: tuple[float, ...]  #: diameter, or width and depth, and the like [m]
     column_height: float
     base: str
     top: str
@@ -58,9 +59,13 @@ class Results(BaseModel):
         """Return the results of a calculation."""
         case, history, design = calculation.case, calculation.history, calculation.design
         inputs, cargo = case.inputs, history.cargo_peak
-        sizes = (inputs.column_diameter, inputs.column_width, inputs.column_depth)
+        section = case.column.section
         calculated = {
-            "column_sizes": tuple(size for size in sizes if size is not None),
+            "column_sizes": tuple(
+                getattr(section, name)
+                for name, symbol in section.dimensions.items()
+                if SYMBOLS[symbol].quantity == "section length"
+            ),
             "truck": case.truck.name,
             "truck_status": case.truck_file.status,
             "truck_mass": case.truck.mass,

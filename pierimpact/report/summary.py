@@ -253,12 +253,11 @@ def _values(row: Row, system: str) -> dict[str, Any]:
 def _column(result: Results, system: str) -> str:
     """Return the column in a few words."""
     sizes = [printed(size, "section length", system, given=True) for size in result.column_sizes]
-    section = " × ".join(size.number for size in sizes)
+    section = result.column_shape
+    if sizes:
+        section += f" {' × '.join(size.number for size in sizes)} {sizes[0].unit}"
     height = printed(result.column_height, "length", system, given=True)
-    return (
-        f"{result.column_shape} {section} {sizes[0].unit}, {height} high, "
-        f"base {result.base}, top {result.top}"
-    )
+    return f"{section}, {height} high, base {result.base}, top {result.top}"
 
 
 def _remarks(result: Results | None, system: str) -> list[str]:

@@ -7,19 +7,22 @@ import numpy as np
 
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
 from pierimpact.files.case import concrete_modulus
-from pierimpact.pier.column import rigidities
 from pierimpact.pier.equivalent import equivalent_mass, vibration
-from pierimpact.pier.sections import circle
+from pierimpact.pier.sections import FreeSection
 from pierimpact.pier.unit_force import BY_ENDS
+from pierimpact.plots.section import draw_section
 from pierimpact.report.document.blocks import Block, Paragraph
-from pierimpact.report.document.markup import Ref, Tex, in_tex, number_in_tex
-from pierimpact.report.document.numbered import Equation, Steps, Table, columns, decimal
+from pierimpact.report.document.markup import Ref, Tex, in_tex, inline, number_in_tex
+from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
 from pierimpact.report.document.step_writer import StepWriter
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import printed, rounded, unit_size
 
-_GIVEN = ("D", "b", "h", "kappa", "fc", "E", "nu", "rho", "H", "z", "y", "zeta")
+_GIVEN = (
+    *("D", "b", "h", "t", "Df", "ns", "Av", "alpha_E", "alpha_rho"),
+    *("fc", "E", "nu", "rho", "psi", "EIe", "H", "z", "y", "zeta"),
+)
 
 
 class EquivalentPierSteps(Section):
@@ -77,21 +80,56 @@ class EquivalentPierSteps(Section):
             "Every printed value is rounded, so that a check by hand may differ in the last figure."
         )
 
+    def section_drawing(self) -> Block:
+        """Return the section drawn to scale, with its dimensions."""
+        section, shape = self.case.column.section, self.case.inputs.column_shape
+        if isinstance(section, FreeSection):
+            return Paragraph("The case gives the properties of the section, and not its shape.")
+        sizes = [
+            f"{SYMBOLS[symbol].meaning} {self.shown(value, 'section length', given=True)}"
+            for symbol, value in section.values.items()
+            if symbol in section.dimensions.values()
+            and SYMBOLS[symbol].quantity == "section length"
+        ]
+        return Figure(
+            label="fig-section",
+            caption=f"Section of the column, {shape}, to scale.",
+            alt=f"The section, {shape}: {', '.join(sizes)}. The truck comes from the left.",
+            svg=draw_section(section, self.system),
+        )
+
     def section(self) -> Steps:
         """Return area, rigidities and mass per length of the column."""
-        writer = self._writer()
-        circular = self.case.column.section.calculation is circle
-        kappa = (
-            f"κ = {'0.9, solid circular section' if circular else '5/6, solid rectangular section'}"
-        )
-        equations = [
-            writer.equation(step._replace(remark=kappa) if step.name == "GA" else step)
-            for calculation in (self.case.column.section.calculation, rigidities)
-            for step in calculation.steps(self._values, calculation.names)
-        ]
+        writer, column = self._writer(), self.case.column
+        section = column.section.calculation
+        steps = section.steps(self._values, set(section.names) & {"A", "I", "kappa", "Am"})
+        for calculation in column.calculations(column.section)[1:]:
+            steps += calculation.steps(self._values, calculation.names)
+        equations: list[Equation] = []
+        for step in steps:
+            if "U" in step.names:
+                equations.append(self._shear_integral())
+            if "psi" in step.names:
+                step = step._replace(remark=f"ψ: {self._source_of('stiffness_factor')}")
+            equations.append(writer.equation(step))
         if self.case.inputs.concrete_strength is not None:
             equations.insert(0, self._concrete_modulus())
         return Steps(equations)
+
+    def _source_of(self, key: str) -> str:
+        """Return where the case has a value from."""
+        inputs = self.case.inputs
+        return inputs.sources.get(key) or inputs.assumed.get(key) or "given in the case file"
+
+    def _shear_integral(self) -> Equation:
+        """Return the integral of the shear stress where it has no closed form."""
+        return Equation(
+            label="eq-U",
+            name=inline(SYMBOLS["U"].heading),
+            symbol=SYMBOLS["U"].latex,
+            lines=[in_tex(self._writer().shown("U"))],
+            source="by numerical integration",
+        )
 
     def _concrete_modulus(self) -> Equation:
         """Return the modulus by the formula of ACI 318, its factor in the units of the sheet."""

@@ -1,0 +1,108 @@
+"""The section of the column in plan: outline, hole or steel, dimensions and travel."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Circle, Polygon
+from numpy.typing import NDArray
+
+from pierimpact.pier.sections import RegularPolygonSection, Section
+from pierimpact.plots.style import INK, MUTED, VERMILION, sheet_figure, to_svg
+from pierimpact.symbols import SYMBOLS
+from pierimpact.units import printed
+
+_CONCRETE, _STEEL = "#dcd8d0", "#5b7083"
+
+
+def draw_section(section: Section, system: str) -> str:
+    """Draw a section to scale, the travel from left to right; return SVG.
+
+    Parameters
+    ----------
+    section : Section
+        A section with an outline: any but a `FreeSection`.
+    system : {"SI", "US"}
+        Units to print in.
+    """
+    values, depth = section.values, section.extent
+    outer = outline(section)
+    width = float(np.ptp(outer[:, 1]))
+    unit = 0.1 * max(depth, width)  # of all gaps
+    with sheet_figure(2.3, left=0.0, right=1.0, bottom=0.0, top=1.0) as figure:
+        axes = figure.add_subplot()
+        axes.set_axis_off()
+        axes.set(aspect="equal")
+        edge: Any = {"edgecolor": INK, "linewidth": 0.7}
+        filled = "Am" in values
+        axes.add_artist(Polygon(outer, facecolor=_STEEL if filled else _CONCRETE, **edge))
+        if "t" in values:
+            inner = outline(section, values["t"])
+            axes.add_artist(Polygon(inner, facecolor=_CONCRETE if filled else "white", **edge))
+            wall = 0.5 * width - 0.5 * values["t"]
+            place = (0.5 * wall, 0.75**0.5 * wall) if "D" in values else (0.25 * depth, wall)
+            line: Any = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkB": 0.0}
+            words = 0.5 * depth + unit, 0.5 * width + 0.6 * unit
+            axes.annotate(_named("t", values, system), place, words, arrowprops=line, va="center")
+            axes.plot(*place, ".", color="white" if filled else INK, markersize=2.5)
+        along = next(name for name in ("D", "h", "Df") if name in values)
+        _dimension(axes, along, values, system, place=-0.5 * width - unit, upright=False)
+        if "b" in values:
+            _dimension(axes, "b", values, system, place=0.5 * depth + unit, upright=True)
+        if isinstance(section, RegularPolygonSection) and section.sides % 2:
+            inscribed = 0.5 * section.across_flats
+            dotted: Any = {"fill": False, "edgecolor": MUTED, "linestyle": ":", "linewidth": 0.8}
+            axes.add_artist(Circle((0.0, 0.0), inscribed, **dotted))
+        face = float(outer[:, 0].min())
+        arrow = {"arrowstyle": "-|>", "color": VERMILION, "linewidth": 1.6, "shrinkB": 0.0}
+        axes.annotate("", (face - 0.3 * unit, 0.0), (face - 4.0 * unit, 0.0), arrowprops=arrow)
+        axes.text(face - 2.2 * unit, 0.4 * unit, "travel", ha="center", color=VERMILION)
+        axes.set_xlim(face - 5.0 * unit, 0.5 * depth + 5.0 * unit)
+        axes.set_ylim(-0.5 * width - 3.0 * unit, 0.5 * width + 1.2 * unit)
+        return to_svg(figure)
+
+
+def outline(section: Section, inset: float = 0.0) -> NDArray[np.float64]:
+    """Return the outline of a section about its centre, along and across the travel.
+
+    Parameters
+    ----------
+    section : Section
+        The section.
+    inset : float, optional
+        Distance of the outline within that of the section [m].
+
+    Returns
+    -------
+    ndarray, shape (n, 2)
+        Corners, and points along curves [m].
+    """
+    values, turn = section.values, np.linspace(0.0, 2.0 * np.pi, 240, endpoint=False)
+    if isinstance(section, RegularPolygonSection):  # the struck face on the left
+        return np.asarray(section.corners[:, ::-1] * (-1.0, 1.0))
+    if "D" in values:
+        return (0.5 * values["D"] - inset) * np.array([np.cos(turn), np.sin(turn)]).T
+    half = 0.5 * np.array([values["h"], values["b"]]) - inset
+    if "r" in values:
+        ends = np.array([np.cos(turn), np.sin(turn)]).T
+        return np.asarray(values["r"] * ends + np.sign(ends.round(9)) * (half - values["r"]))
+    corners = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+    return np.asarray(half * corners)
+
+
+def _named(name: str, values: dict[str, float], system: str) -> str:
+    shown = printed(values[name], SYMBOLS[name].quantity, system, given=True)
+    return f"${SYMBOLS[name].latex}$ = {shown}"
+
+
+def _dimension(
+    axes: Axes, name: str, values: dict[str, float], system: str, *, place: float, upright: bool
+) -> None:
+    """Draw a dimension line with its name: upright at x = `place`, or level at y = `place`."""
+    half, line = 0.5 * values[name], {"color": INK, "linewidth": 0.6}
+    arrow: Any = {"arrowstyle": "<|-|>", "mutation_scale": 6.0, "shrinkA": 0.0, "shrinkB": 0.0}
+    ends = [(place, -half), (place, half)] if upright else [(-half, place), (half, place)]
+    axes.annotate("", ends[0], ends[1], arrowprops=arrow | line)
+    middle, offset = ((place, 0.0), (4.0, 0.0)) if upright else ((0.0, place), (0.0, -4.0))
+    align: Any = {"va": "center"} if upright else {"ha": "center", "va": "top"}
+    axes.annotate(_named(name, values, system), middle, offset, textcoords="offset points", **align)
