@@ -12,9 +12,9 @@ import yaml
 
 from pierimpact.checks import InputError, brief
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
-from pierimpact.files.inputs import Inputs, read_inputs
+from pierimpact.files.inputs import Inputs, SectionInputs, read_inputs
 from pierimpact.files.trucks import TruckFile, read_truck_file
-from pierimpact.pier.column import PierColumn
+from pierimpact.pier.column import PierColumn, Step
 from pierimpact.pier.sections import (
     CircularSection,
     FilledCircularSection,
@@ -198,12 +198,23 @@ def _column(inputs: Inputs) -> PierColumn:
         top_rotation_stiffness=inputs.top_rotation_stiffness,
         top_mass=inputs.top_mass or 0.0,
         embedment=inputs.embedment or 0.0,
+        steps=_steps(inputs),
         stiffness_factor=1.0 if inputs.stiffness_factor is None else inputs.stiffness_factor,
         effective_stiffness=inputs.effective_stiffness,
     )
 
 
-def _section(inputs: Inputs) -> Section:
+def _steps(inputs: Inputs) -> list[Step]:
+    steps = []
+    for number, step in enumerate(inputs.steps, 1):
+        try:
+            steps.append(Step(height=step.height, section=_section(step)))
+        except InputError as error:
+            raise InputError(f"steps[{number}].{error}") from None
+    return steps
+
+
+def _section(inputs: SectionInputs) -> Section:
     shape = SHAPES[inputs.column_shape]
     wanted = section_keys(shape)
     for key in dict.fromkeys(key for each in SHAPES.values() for key in section_keys(each)):

@@ -20,6 +20,10 @@ def _named(convert: Callable[[str, Any], Any]) -> BeforeValidator:
     return BeforeValidator(validate)
 
 
+def _length(name: str, value: Any) -> float:
+    return parse(name, value, "length")
+
+
 def _parsed(name: str, value: Any) -> float:
     return parse(name, value, dimension(BY_KEY[name]))
 
@@ -89,18 +93,11 @@ Factor = Annotated[float, _named(_factor)]
 EndCondition = Literal["fixed", "pinned", "free"]
 
 
-class Inputs(BaseModel):
-    """The keys of a case file, in SI units; None where a key is not given and has no default."""
+class SectionInputs(BaseModel):
+    """The keys of a cross-section, in SI units; None where a key is not given."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    project: Text = "—"
-    job_number: Text = "—"
-    element: Text = "—"
-    prepared_by: Text = "—"
-    checked_by: Text = "—"
-    revision: Text = "—"
-    date: Annotated[datetime.date, _named(_date)] = Field(default_factory=datetime.date.today)
     column_shape: Literal[
         "circular",
         "rectangular",
@@ -123,6 +120,40 @@ class Inputs(BaseModel):
     column_shear_area: Positive | None = None
     modular_ratio: Factor | None = None
     density_ratio: Factor | None = None
+
+
+class StepInputs(SectionInputs):
+    """The keys of a change of the cross-section."""
+
+    height: Annotated[float, _named(_length)]
+
+
+def _steps(name: str, value: Any) -> tuple[StepInputs, ...]:
+    if not isinstance(value, list | tuple) or not all(isinstance(step, dict) for step in value):
+        raise InputError(
+            f"{name} must be a list of heights with the keys of their sections, got {brief(value)}"
+        )
+    steps = []
+    for number, step in enumerate(value, 1):
+        for key in step:
+            known(key, StepInputs.model_fields, "a key of a step")
+        try:
+            steps.append(StepInputs(**step))
+        except ValidationError as error:
+            raise InputError(f"{name}[{number}].{_one_line(error)}") from None
+    return tuple(steps)
+
+
+class Inputs(SectionInputs):
+    """The keys of a case file, in SI units; None where a key is not given and has no default."""
+
+    project: Text = "—"
+    job_number: Text = "—"
+    element: Text = "—"
+    prepared_by: Text = "—"
+    checked_by: Text = "—"
+    revision: Text = "—"
+    date: Annotated[datetime.date, _named(_date)] = Field(default_factory=datetime.date.today)
     column_height: Positive
     elastic_modulus: Positive | None = None
     concrete_strength: Positive | None = None
@@ -138,6 +169,7 @@ class Inputs(BaseModel):
     top_rotation_stiffness: Positive | None = None
     top_mass: Positive | None = None
     embedment: Positive | None = None
+    steps: Annotated[tuple[StepInputs, ...], _named(_steps)] = ()
     truck: Text
     truck_mass: Positive | None = None
     speed: Positive

@@ -144,8 +144,8 @@ def limitations(calculation: Calculation) -> Iterator[str]:
     for name, demand in calculation.demands.items():
         if demand.ratio is not None and demand.ratio < UNSAFE:
             yield (
-                f"The column as a beam takes {rounded(1.0 / demand.ratio, 3)} times the {name} that "
-                "the static reaction gives: one degree of freedom does not hold for this column."
+                f"The column as a beam takes {rounded(1.0 / demand.ratio, 3)} times the {name} "
+                "that the static reaction gives: one degree of freedom does not hold here."
             )
     limits = "; ".join(limits_of_the_study(design.outside, design.overlapping, case.inputs.units))
     if limits:
