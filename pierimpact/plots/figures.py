@@ -155,12 +155,12 @@ def draw_member_forces(
             axes.margins(x=0.32)
             axes.set_title(f"{name} [{unit_of(quantity, system)}]")
             axes.locator_params(axis="x", nbins=4)
-            for height, value in labels:
+            for at, value in labels:
                 words = printed(value, quantity, system).number
                 offset, ha = ((4, 0), "left") if value >= 0.0 else ((-4, 0), "right")
-                share = (height - forces.z[0]) / (forces.z[-1] - forces.z[0])
+                share = (at - forces.z[0]) / (forces.z[-1] - forces.z[0])
                 va = "bottom" if share < 0.04 else "top" if share > 0.96 else "center"
-                place = value / unit, height / unit_size("length", system)
+                place = value / unit, at / unit_size("length", system)
                 note(axes, words, place, offset, ha=ha, va=va, fontsize=8.5)
         return to_svg(figure)
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 from typing import NamedTuple
 
 from pierimpact.collision.averages import AverageForce, largest_average_force
@@ -139,20 +140,15 @@ class Calculation:
     @cached_property
     def demands(self) -> dict[str, Demand]:
         """Largest "shear" and "moment"."""
-        static, beam = self.member_forces, self.beam_forces
-        by_beam = (
-            {"shear": None, "moment": None}
-            if beam is None
-            else {
-                "shear": beam.shear_extremes.governing.value,
-                "moment": beam.moment_extremes.governing.value,
-            }
-        )
-        by_force = {"shear": static.largest_shear.value, "moment": static.largest_moment.value}
-        asked = self.case.inputs.member_forces
+        static, beam, asked = self.member_forces, self.beam_forces, self.case.inputs.member_forces
         return {
-            name: Demand(abs(value), None if by_beam[name] is None else abs(by_beam[name]), asked)
-            for name, value in by_force.items()
+            name: Demand(
+                abs(under_force.value), beam and abs(extremes(beam).governing.value), asked
+            )
+            for name, under_force, extremes in (
+                ("shear", static.largest_shear, attrgetter("shear_extremes")),
+                ("moment", static.largest_moment, attrgetter("moment_extremes")),
+            )
         }
 
     @cached_property

@@ -3,6 +3,7 @@
 from pierimpact.files.case import Case
 from pierimpact.report.calculation import calculate
 from pierimpact.report.results import Results
+from pierimpact.report.sheet.arranged_column import ArrangedColumnSteps
 from pierimpact.report.sheet.codes import Codes
 from pierimpact.report.sheet.design_procedure import DesignProcedure
 from pierimpact.report.sheet.equivalent_pier import EquivalentPierSteps
@@ -31,7 +32,8 @@ class Sheet:
         self.calculation = calculate(case)
         self.summary = Summary(self.calculation)
         self.inputs = Inputs(self.calculation)
-        self.pier = EquivalentPierSteps(self.calculation)
+        uniform = case.column.uniform
+        self.pier = (EquivalentPierSteps if uniform else ArrangedColumnSteps)(self.calculation)
         self.procedure = DesignProcedure(self.calculation)
         self.model = FullModel(self.calculation)
         self.member_forces = MemberForces(self.calculation)

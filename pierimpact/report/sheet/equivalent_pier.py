@@ -10,6 +10,7 @@ from pierimpact.files.case import concrete_modulus
 from pierimpact.pier.equivalent import equivalent_mass, vibration
 from pierimpact.pier.sections import FreeSection
 from pierimpact.pier.unit_force import BY_ENDS
+from pierimpact.plots.elevation import draw_elevation
 from pierimpact.plots.section import draw_section
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Ref, Tex, in_tex, inline, number_in_tex
@@ -79,6 +80,23 @@ class EquivalentPierSteps(Section):
             f"{printed(size, 'share', 'SI', given=True)} {self.unit('mass stiffness')}. "
             "Every printed value is rounded, so that a check by hand may differ in the last figure."
         )
+
+    def elevation(self) -> Block:
+        """Return the column in elevation, drawn to scale."""
+        column = self.case.column
+        height = self.shown(column.height, "length", given=True)
+        impact = self.shown(self.calculation.struck.impact_height, "length", given=True)
+        return Figure(
+            label="fig-elevation",
+            caption="The column in elevation, to scale, and where it is struck.",
+            alt=f"The column, {height} high, base {column.base}, top {column.top}; the truck "
+            f"comes from the left and strikes at {impact}.",
+            svg=draw_elevation(self.calculation.struck, self.system),
+        )
+
+    def parts(self) -> Block | None:
+        """Return the parts of the column; None where it is of one."""
+        return None
 
     def section_drawing(self) -> Block:
         """Return the section drawn to scale, with its dimensions."""
@@ -155,15 +173,15 @@ class EquivalentPierSteps(Section):
             "unverified: check against the standard",
         )
 
-    def unit_forces(self) -> Steps:
+    def unit_forces(self) -> Block:
         """Return support forces and moments under a unit force at the impact height."""
         return self._unit_force[0]
 
-    def stiffness(self) -> Steps:
+    def stiffness(self) -> Block:
         """Return the deflection under the unit force, of flexure and shear, and the stiffness."""
         return self._unit_force[1]
 
-    def shape(self) -> Steps:
+    def shape(self) -> Block:
         """Return the shape function below and above the impact, as polynomials with their terms."""
         places = (("below", "b", "z / H"), ("above", "t", "(H - z) / H"))
         shapes = [
@@ -197,7 +215,7 @@ class EquivalentPierSteps(Section):
             text += f"{sign} {shown}" + ("", r" \, s ")[power > 0] + f"^{power} " * (power > 1)
         return text
 
-    def shape_table(self) -> Table:
+    def shape_table(self) -> Block:
         """Return ordinates of the shape function, four equal intervals on either side."""
         struck, height = self.calculation.struck, self.case.column.height
         below = np.linspace(0.0, struck.impact_height, 5)
