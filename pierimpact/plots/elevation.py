@@ -61,7 +61,7 @@ def draw_elevation(struck: StruckColumn, system: str) -> str:
         for step in column.steps:
             _dimension(axes, 0.5 * widest + 2.5 * unit, 0.0, step.height, "", system)
         axes.set_xlim(-0.5 * widest - 11.0 * unit, 0.5 * widest + 11.0 * unit)
-        axes.set_ylim(bottom - 4.0 * unit, top + cap + 4.0 * unit)
+        axes.set_ylim(bottom - 5.0 * unit, top + cap + 5.0 * unit)
         return to_svg(figure)
 
 
@@ -80,11 +80,10 @@ def _draw_cap(axes: Axes, mass: float, top: float, width: float, unit: float, sy
     """Draw a mass at the top; return its height in the drawing, which is not to scale."""
     if not mass:
         return 0.0
-    height, half = 1.8 * unit, 0.5 * width + 2.0 * unit
-    style: Any = {"facecolor": _CONCRETE, "edgecolor": INK, "linewidth": 0.7, "linestyle": "--"}
+    height, half = 1.5 * unit, 0.5 * width + 2.0 * unit
+    style: Any = {"facecolor": "white", "edgecolor": INK, "linewidth": 0.7, "linestyle": "--"}
     axes.add_artist(Rectangle((-half, top), 2.0 * half, height, **style))
-    words = f"${SYMBOLS['mt'].latex}$ = {printed(mass, 'mass', system, given=True)}"
-    axes.text(0.0, top + 0.5 * height, words, ha="center", va="center")
+    axes.text(half + 0.5 * unit, top + 0.5 * height, _named("mt", mass, system), va="center")
     return height
 
 
@@ -124,12 +123,12 @@ def _draw_support(
         words.append(_named(names[1], support.rotation_stiffness, system))
     if words:
         place = (half + 1.6 * unit, z + outward * 1.4 * unit)
-        axes.text(*place, "\n".join(words), va="bottom" if outward > 0.0 else "top", fontsize=8.5)
+        axes.text(*place, "\n".join(words), va="bottom" if outward > 0.0 else "top")
 
 
 def _named(name: str, value: float, system: str) -> str:
-    shown = printed(value, SYMBOLS[name].quantity, system, given=True)
-    return f"${SYMBOLS[name].latex}$ = {shown}"
+    shown = str(printed(value, SYMBOLS[name].quantity, system, given=True))
+    return f"${SYMBOLS[name].latex}$ = " + shown.replace("\u202f", " ")  # which the font has not
 
 
 def _dimension(
@@ -149,6 +148,4 @@ def _dimension(
     words = f"{name} = {shown}" if name else shown
     offset, align = ((-4.0, 0.0), "right") if leftward else ((4.0, 0.0), "left")
     middle = (x, 0.5 * (low + high))
-    axes.annotate(
-        words, middle, offset, textcoords="offset points", ha=align, va="center", fontsize=8.5
-    )
+    axes.annotate(words, middle, offset, textcoords="offset points", ha=align, va="center")

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from operator import attrgetter
 from typing import NamedTuple
 
 from pierimpact.collision.averages import AverageForce, largest_average_force
@@ -141,14 +140,17 @@ class Calculation:
     def demands(self) -> dict[str, Demand]:
         """Largest "shear" and "moment"."""
         static, beam, asked = self.member_forces, self.beam_forces, self.case.inputs.member_forces
+        shear, moment = (
+            (None, None)
+            if beam is None
+            else (
+                abs(extremes.governing.value)
+                for extremes in (beam.shear_extremes, beam.moment_extremes)
+            )
+        )
         return {
-            name: Demand(
-                abs(under_force.value), beam and abs(extremes(beam).governing.value), asked
-            )
-            for name, under_force, extremes in (
-                ("shear", static.largest_shear, attrgetter("shear_extremes")),
-                ("moment", static.largest_moment, attrgetter("moment_extremes")),
-            )
+            "shear": Demand(abs(static.largest_shear.value), shear, asked),
+            "moment": Demand(abs(static.largest_moment.value), moment, asked),
         }
 
     @cached_property

@@ -40,7 +40,12 @@ class MemberForces(Section):
                     if quantity == "force"
                     else (beam.largest_moment, beam.smallest_moment)
                 )
-                rows[-1] += [self.number(float(envelope[place]), quantity) for envelope in ends]
+                # Of a free or pinned end nothing but round-off is left.
+                least = 1e-9 * (result.demands["shear" if quantity == "force" else "moment"].value)
+                rows[-1] += [
+                    self.number(value if abs(value) > least else 0.0, quantity)
+                    for value in (float(envelope[place]) for envelope in ends)
+                ]
             rows[-1].append(self.unit(quantity))
         for name, quantity in DEMANDS.items():
             demand = result.demands[name]
@@ -70,7 +75,7 @@ class MemberForces(Section):
         sentences = []
         for name, extremes in (("shear", beam.shear_extremes), ("moment", beam.moment_extremes)):
             extreme, ratio = extremes.governing, demands[name].ratio
-            place = self.shown(extreme.z, "length")
+            place = self.shown(extreme.z, "length", given=True)
             time = self.shown(extreme.time, "time")
             sentences.append(
                 f"The largest {name} of the beam is at {place} above the base, {time} after first "
