@@ -5,7 +5,7 @@ import dataclasses
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from pierimpact import CircularSection, PierColumn, RectangularSection, Step
+from pierimpact import CircularSection, OblongSection, PierColumn, RectangularSection, Step
 
 STABLE = [
     ("fixed", "fixed"),
@@ -27,6 +27,7 @@ shear_coefficients = st.floats(0.3, 1.0)
 sections = st.one_of(
     st.builds(CircularSection, diameter=sizes, shear_coefficient=shear_coefficients),
     st.builds(RectangularSection, width=sizes, depth=sizes, shear_coefficient=shear_coefficients),
+    st.builds(OblongSection, width=sizes, depth=sizes),
 )
 
 

@@ -4,6 +4,7 @@ import math
 import re
 import shutil
 from pathlib import Path
+from typing import get_args
 
 import pytest
 from hypothesis import given
@@ -12,13 +13,17 @@ from hypothesis import strategies as st
 import pierimpact
 from pierimpact.checks import InputError
 from pierimpact.files.case import (
+    SHAPES,
     Case,
     case_from,
     case_from_notebook,
     concrete_modulus,
     read_case_file,
 )
-from pierimpact.files.inputs import KEYS, PHYSICAL_KEYS
+from pierimpact.files.inputs import KEYS, PHYSICAL_KEYS, Inputs
+from pierimpact.report.calculation import calculate
+from pierimpact.report.results import Results
+from pierimpact.report.summary import column_in_words
 
 CASE = {
     "project": "Example overpass",
@@ -86,6 +91,80 @@ def test_concrete_modulus_is_near_the_form_of_the_formula_in_psi():
     assert concrete_modulus(4000 * psi) == pytest.approx(57000 * math.sqrt(4000) * psi, rel=0.01)
 
 
+SECTIONS = {
+    "circular": {"column_diameter": "1.2 m"},
+    "rectangular": {"column_width": "1.5 m", "column_depth": "1.2 m"},
+    "hollow circular": {"column_diameter": "1.2 m", "column_wall_thickness": "200 mm"},
+    "hollow rectangular": {
+        "column_width": "1.5 m",
+        "column_depth": "1.2 m",
+        "column_wall_thickness": "200 mm",
+    },
+    "oblong": {"column_width": "0.8 m", "column_depth": "1.2 m"},
+    "polygonal": {"column_sides": 8, "column_across_flats": "1.2 m"},
+    "filled circular": {
+        "column_diameter": "1.2 m",
+        "column_wall_thickness": "16 mm",
+        "modular_ratio": 7.0,
+        "density_ratio": 3.2,
+    },
+    "filled rectangular": {
+        "column_width": "1.5 m",
+        "column_depth": "1.2 m",
+        "column_wall_thickness": "16 mm",
+        "modular_ratio": 7.0,
+        "density_ratio": 3.2,
+    },
+    "free": {
+        "column_area": "1.5 m^2",
+        "column_second_moment": "0.18 m^4",
+        "column_shear_area": "1.2 m^2",
+    },
+}
+OTHER = CASE | {"column_diameter": None}
+
+
+def test_every_shape_has_a_section_of_its_own():
+    shapes = get_args(Inputs.model_fields["column_shape"].annotation)
+    assert shapes == tuple(SHAPES) == tuple(SECTIONS)
+    assert len({SHAPES[shape] for shape in shapes}) == len(shapes)
+
+
+@pytest.mark.parametrize("shape", SECTIONS)
+def test_a_shape_wants_its_keys_and_no_others(shape):
+    given = SECTIONS[shape]
+    case = case_from(OTHER | {"column_shape": shape} | given)
+    assert type(case.column.section) is SHAPES[shape]
+    assert case.column.section.extent == pytest.approx(1.2)
+    for key in given:
+        with pytest.raises(InputError, match=f"^{key} is missing: it belongs to column_shape"):
+            case_from(OTHER | {"column_shape": shape} | given | {key: None})
+    for key in {key for keys in SECTIONS.values() for key in keys} - set(given):
+        other = next(keys[key] for keys in SECTIONS.values() if key in keys)
+        with pytest.raises(InputError, match=f"^{key} does not belong to column_shape {shape}$"):
+            case_from(OTHER | {"column_shape": shape} | given | {key: other})
+
+
+def test_the_stiffness_of_a_cracked_section():
+    gross = case_from(CASE).column
+    cracked = case_from(CASE | {"stiffness_factor": 0.4}).column
+    assert cracked.flexural_rigidity == pytest.approx(0.4 * gross.flexural_rigidity)
+    given = case_from(CASE | {"effective_stiffness": "250 MN*m^2"}).column
+    assert given.flexural_rigidity == pytest.approx(250e6)
+    assert given.shear_rigidity == cracked.shear_rigidity == gross.shear_rigidity
+
+
+def test_what_the_summary_says_of_a_section():
+    for shape, words in (
+        ("hollow circular", "hollow circular 1.2 × 0.2 m, 5 m high, base fixed, top pinned"),
+        ("free", "free, 5 m high, base fixed, top pinned"),
+    ):
+        results = Results.of(
+            calculate(case_from(OTHER | SECTIONS[shape] | {"column_shape": shape}))
+        )
+        assert column_in_words(results, "SI") == words
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -122,6 +201,44 @@ def test_concrete_modulus_is_near_the_form_of_the_formula_in_psi():
             "column_diameter is missing: it belongs to column_shape",
         ),
         ({"column_width": "1 m"}, "column_width does not belong to column_shape circular"),
+        (
+            {"column_shape": "hollow circular", "column_wall_thickness": "20 in"},
+            "column_wall_thickness must be below half the diameter of 0.9144 m, got 0.508 m",
+        ),
+        (
+            OTHER
+            | {"column_shape": "polygonal", "column_sides": 2.5, "column_across_flats": "1 m"},
+            "column_sides must be a whole number from 3 to 100, got 2.5",
+        ),
+        (
+            OTHER
+            | {"column_shape": "polygonal", "column_sides": "8", "column_across_flats": "1 m"},
+            "column_sides must be a plain number without unit, got '8'",
+        ),
+        (
+            OTHER | SECTIONS["free"] | {"column_shape": "free", "column_shear_area": "2 m^2"},
+            "column_shear_area must be at most the area of 1.5 m², got 2 m²",
+        ),
+        (
+            OTHER | SECTIONS["free"] | {"column_shape": "free", "column_area": "2 m"},
+            "column_area must be an area (m^2, mm^2, in^2), got '2 m', which is a length",
+        ),
+        (
+            OTHER
+            | SECTIONS["filled circular"]
+            | {"modular_ratio": 0, "column_shape": "filled circular"},
+            "modular_ratio must be positive, got 0",
+        ),
+        ({"stiffness_factor": 35}, "stiffness_factor must be at most 1, got 35"),
+        ({"stiffness_factor": "35 %"}, "stiffness_factor must be a plain number without unit"),
+        (
+            {"effective_stiffness": "250 MN"},
+            "effective_stiffness must be a flexural rigidity (MN*m^2",
+        ),
+        (
+            {"stiffness_factor": 1.0, "effective_stiffness": "250 MN*m^2"},
+            "give only one of stiffness_factor and effective_stiffness",
+        ),
         ({"elastic_modulus": None}, "give one of elastic_modulus and concrete_strength"),
         ({"concrete_strength": "28 MPa"}, "give one of elastic_modulus and concrete_strength"),
         ({"elastic_modulus": "25 mPa"}, "unknown unit in '25 mPa'; did you mean MPa?"),

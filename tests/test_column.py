@@ -326,6 +326,30 @@ def test_deflection_follows_the_shape_of_z_and_the_force():
     )
 
 
+@GENERATED
+@given(struck_columns(), st.floats(0.05, 1.0))
+def test_cracks_divide_flexure_and_nothing_else(case, factor):
+    gross, impact_height = case
+    cracked = dataclasses.replace(gross, stiffness_factor=factor)
+    stiffness = factor * gross.flexural_rigidity
+    given = dataclasses.replace(gross, effective_stiffness=stiffness)
+    for column in (cracked, given):
+        assert column.flexural_rigidity == pytest.approx(stiffness, rel=1e-12)
+        assert column.shear_rigidity == gross.shear_rigidity
+        assert column.mass_per_length == gross.mass_per_length
+
+    def with_shear(column, kappa):
+        section = dataclasses.replace(column.section, shear_coefficient=kappa)
+        return dataclasses.replace(column, section=section)
+
+    # A softer material has less stiffness in shear too, which its κ makes good.
+    softer = dataclasses.replace(gross, elastic_modulus=factor * gross.elastic_modulus)
+    one = with_shear(softer, factor).equivalent(impact_height)
+    other = with_shear(cracked, factor**2).equivalent(impact_height)
+    assert one.stiffness == pytest.approx(other.stiffness, rel=1e-9)
+    assert one.mass == pytest.approx(other.mass, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("base", "top", "springs", "free"),
     [
@@ -422,7 +446,14 @@ def test_mass_at_the_top_enters_with_the_square_of_the_shape():
         ({"top": None}, "top must be one of fixed, pinned, free, got None"),
         (
             {"section": 0.9},
-            r"section must be a Section, got 0\.9",
+            r"section must be a section such as CircularSection\(…\), got 0\.9",
+        ),
+        ({"stiffness_factor": 0.0}, "stiffness_factor must be positive, got 0"),
+        ({"stiffness_factor": 1.2}, r"stiffness_factor must be at most 1, got 1\.2"),
+        ({"effective_stiffness": -1e9}, r"effective_stiffness must be positive, got -1e\+09"),
+        (
+            {"effective_stiffness": 1e9, "stiffness_factor": 0.5},
+            r"give only one of stiffness_factor and effective_stiffness, got 0\.5 and 1e\+09 N m²",
         ),
         ({"top_mass": -1.0}, "top_mass must not be negative, got -1"),
         ({"top_stiffness": -5.0}, "top_stiffness must not be negative, got -5"),

@@ -4,8 +4,20 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
 
-from pierimpact import CircularSection, PierColumn, load_truck
+from pierimpact import (
+    CircularSection,
+    FilledCircularSection,
+    FilledRectangularSection,
+    HollowCircularSection,
+    HollowRectangularSection,
+    OblongSection,
+    PierColumn,
+    RectangularSection,
+    RegularPolygonSection,
+    load_truck,
+)
 from pierimpact.design.sensitivity import sensitivity
 from pierimpact.plots import (
     amplification,
@@ -14,6 +26,7 @@ from pierimpact.plots import (
     figures,
     influence,
     schematic,
+    section,
     shape,
     spectrum,
 )
@@ -24,6 +37,20 @@ from pierimpact.teaching.scenario import Scenario
 from pierimpact.units import printed
 
 USUAL = Scenario()
+SECTIONS = [
+    CircularSection(diameter=0.9),
+    RectangularSection(width=1.3, depth=0.8),
+    HollowCircularSection(diameter=2.1, wall_thickness=0.35),
+    HollowRectangularSection(width=3.2, depth=1.6, wall_thickness=0.25),
+    OblongSection(width=0.9, depth=2.2),
+    OblongSection(width=2.4, depth=0.9),
+    RegularPolygonSection(sides=7, across_flats=1.1),
+    RegularPolygonSection(sides=8, across_flats=1.1),
+    FilledCircularSection(diameter=0.8, wall_thickness=0.1, modular_ratio=7.0, density_ratio=3.0),
+    FilledRectangularSection(
+        width=0.9, depth=0.7, wall_thickness=0.02, modular_ratio=7.0, density_ratio=3.0
+    ),
+]
 NAMES = [parameter.meaning for parameter in explorer_data.PARAMETERS]
 SPEEDS = [20.0, 45.0, 80.0, 130.0]  # km/h: no contact, engine alone, both, both
 
@@ -236,3 +263,20 @@ def test_sensitivities_fill_their_axes(monkeypatch, system):
     for axes in figure.axes:
         lines = [line.get_xdata() for line in axes.lines if len(line.get_xdata()) > 2]
         assert axes.get_xlim() == pytest.approx((lines[0][0], lines[0][-1]))
+
+
+@pytest.mark.parametrize("system", ["SI", "US"])
+@pytest.mark.parametrize("drawn", SECTIONS, ids=lambda drawn: type(drawn).__name__)
+def test_a_section_is_drawn_as_large_as_it_is(monkeypatch, drawn, system):
+    monkeypatch.setattr(section, "to_svg", lambda figure: figure)
+    (axes,) = section.draw_section(drawn, system).axes
+    outlines = [patch.get_xy() for patch in axes.patches if isinstance(patch, Polygon)]
+    assert np.ptp(outlines[0][:, 0]) == pytest.approx(drawn.extent, rel=1e-9)
+    areas = [0.5 * abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) for x, y in (o.T for o in outlines)]
+    whole = drawn.values.get("As", drawn.area)
+    assert areas[0] - sum(areas[1:]) == pytest.approx(whole, rel=3e-3)
+    named = {name for name in ("D", "b", "h", "t", "Df") if name in drawn.values}
+    shown = {
+        str(printed(drawn.values[name], "section length", system, given=True)) for name in named
+    }
+    assert {text.partition(" = ")[2] for text in words(axes) if " = " in text} == shown

@@ -393,4 +393,4 @@ class StruckColumn:
 
 def _require_section(name: str, section: object) -> None:
     if not isinstance(section, Section):
-        raise InputError(f"{name} must be a Section, got {section!r}")
+        raise InputError(f"{name} must be a section such as CircularSection(…), got {section!r}")

@@ -247,10 +247,10 @@ def _values(row: Row, system: str) -> dict[str, Any]:
         return values
     values |= {name.replace("_", " "): value for name, value in result.model_dump().items()}
     checks = {f"utilisation in {check}": result.utilisations.get(check) for check in _CHECKS}
-    return values | checks | {"column": _column(result, system)}
+    return values | checks | {"column": column_in_words(result, system)}
 
 
-def _column(result: Results, system: str) -> str:
+def column_in_words(result: Results, system: str) -> str:
     """Return the column in a few words."""
     sizes = [printed(size, "section length", system, given=True) for size in result.column_sizes]
     section = result.column_shape
