@@ -242,7 +242,10 @@ def test_what_the_summary_says_of_a_section():
         ({"elastic_modulus": None}, "give one of elastic_modulus and concrete_strength"),
         ({"concrete_strength": "28 MPa"}, "give one of elastic_modulus and concrete_strength"),
         ({"elastic_modulus": "25 mPa"}, "unknown unit in '25 mPa'; did you mean MPa?"),
-        ({"base": "free"}, "base and top leave the column a mechanism, free to rotate about its top"),
+        (
+            {"base": "free"},
+            "base and top leave the column a mechanism, free to rotate about its top",
+        ),
         ({"base": "fix"}, "base must be 'fixed', 'pinned' or 'free', got 'fix'"),
         ({"impact_height": "6 m"}, "impact_height must be above 0 m and below the height 5 m"),
         ({"impact_height": "0 m"}, "impact_height must be above 0 m"),

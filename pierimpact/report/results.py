@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict
 
 from pierimpact.certainty import Certainty
 from pierimpact.design.domain import Outside
+from pierimpact.files.plausible import Unusual, unusual
 from pierimpact.report.calculation import Calculation
 from pierimpact.symbols import SYMBOLS
 
@@ -41,6 +42,7 @@ class Results(BaseModel):
     truck_status: Certainty
     truck_mass: float
     speed: float
+    unusual: tuple[Unusual, ...]  #: inputs outside what is usual
     assumed: int  #: number of inputs that are assumed
 
     impact_height: float
@@ -69,6 +71,7 @@ class Results(BaseModel):
             "truck": case.truck.name,
             "truck_status": case.truck_file.status,
             "truck_mass": case.truck.mass,
+            "unusual": tuple(unusual(inputs)),
             "assumed": len(inputs.assumed),
             "impact_height": calculation.struck.impact_height,
             "pier_frequency": calculation.pier.frequency,

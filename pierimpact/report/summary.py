@@ -267,6 +267,7 @@ def _remarks(result: Results | None, system: str) -> list[str]:
     remarks = [] if result.truck_status.verified else [f"truck {result.truck_status.words}"]
     if result.assumed:
         remarks.append(f"{result.assumed} input{'s' * (result.assumed > 1)} assumed")
+    remarks += [f"unusual {BY_KEY[key].meaning}" for key, *_ in result.unusual]
     if not result.engine_contact:
         remarks.append("no engine contact")
     remarks += limits_of_the_study(result.outside, result.overlapping, system)

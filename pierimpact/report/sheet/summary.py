@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from pierimpact.design.domain import Outside
+from pierimpact.files.plausible import unusual
 from pierimpact.report.calculation import Calculation
 from pierimpact.report.document.blocks import (
     Block,
@@ -147,6 +148,13 @@ def limitations(calculation: Calculation) -> Iterator[str]:
                 f"The column as a beam takes {rounded(1.0 / demand.ratio, 3)} times the {name} "
                 "that the static reaction gives: one degree of freedom does not hold here."
             )
+    for key, *values in unusual(case.inputs):
+        _, quantity, meaning, _ = BY_KEY[key]
+        value, least, most = (printed(v, quantity, case.inputs.units, given=True) for v in values)
+        yield (
+            f"Unusual: {meaning} {value}, where {least} to {most} is usual. "
+            "Check the value and its unit."
+        )
     limits = "; ".join(limits_of_the_study(design.outside, design.overlapping, case.inputs.units))
     if limits:
         yield (
