@@ -43,6 +43,8 @@ def page_of(values):
             continue
         exec(compile(ast.Module(statements, []), "cell", "exec"), namespace)
         block = eval(compile(ast.Expression(last.value), "cell", "eval"), namespace)
+        if block is None:  # as a notebook shows nothing of it
+            continue
         output = v4.new_output("display_data", block._repr_mimebundle_())
         cells.append(v4.new_code_cell(outputs=[output]))
     page, _ = SheetHTMLExporter().from_notebook_node(v4.new_notebook(cells=cells))

@@ -60,7 +60,8 @@ def rigidities(column, height):
         section = step.section if Fraction(step.height) <= height else section
     modulus, poisson = Fraction(column.elastic_modulus), Fraction(column.poisson_ratio)
     shear_area = Fraction(section.shear_coefficient * section.area)
-    return modulus * Fraction(section.second_moment), modulus / (2 * (1 + poisson)) * shear_area
+    flexural = Fraction(column.stiffness_factor) * modulus * Fraction(section.second_moment)
+    return flexural, modulus / (2 * (1 + poisson)) * shear_area
 
 
 def element_stiffness(length, bending, shearing):

@@ -15,7 +15,7 @@ from pierimpact.report.document.blocks import (
 )
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, SYMBOLS
-from pierimpact.units import Printed, printed, rounded
+from pierimpact.units import Printed, printed, rounded, unit_size
 
 #: Static over beam below which the static member forces are called unsafe.
 UNSAFE = 0.95
@@ -150,10 +150,12 @@ def limitations(calculation: Calculation) -> Iterator[str]:
             )
     for key, *values in unusual(case.inputs):
         _, quantity, meaning, _ = BY_KEY[key]
-        value, least, most = (printed(v, quantity, case.inputs.units, given=True) for v in values)
+        value, unit = printed(values[0], quantity, case.inputs.units, given=True)
+        size = unit_size(quantity, case.inputs.units)
+        least, most = (rounded(end / size, 2) for end in values[1:])
         yield (
-            f"Unusual: {meaning} {value}, where {least} to {most} is usual. "
-            "Check the value and its unit."
+            f"Unusual: {meaning} {value} {unit}".rstrip()
+            + f", where {least} to {most} is usual. Check the value and its unit."
         )
     limits = "; ".join(limits_of_the_study(design.outside, design.overlapping, case.inputs.units))
     if limits:

@@ -1,0 +1,160 @@
+"""The sheet of a column with steps, springs, embedment and a mass at its top."""
+
+import re
+from xml.etree import ElementTree
+
+import pytest
+import stiffness_method
+from generated_columns import arranged_columns, joints
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sheet_page import page_of
+
+from pierimpact import InputError
+from pierimpact.files.case import case_from
+from pierimpact.plots.elevation import draw_elevation
+from pierimpact.report.sheet import Sheet
+
+CASE = {
+    "column_shape": "hollow circular",
+    "column_diameter": "1.8 m",
+    "column_wall_thickness": "0.3 m",
+    "column_height": "9.0 m",
+    "elastic_modulus": "28 GPa",
+    "density": "2450 kg/m^3",
+    "stiffness_factor": 0.6,
+    "base": "fixed",
+    "top": "free",
+    "base_stiffness": "2500 MN/m",
+    "base_rotation_stiffness": "20 GN*m/rad",
+    "top_stiffness": "3 MN/m",
+    "top_mass": "60 t",
+    "embedment": "0.8 m",
+    "steps": [{"height": "3 m", "column_shape": "circular", "column_diameter": "1.5 m"}],
+    "truck": "single-unit-8t",
+    "speed": "62 km/h",
+    "impact_height": "1.2 m",
+    "shear_resistance": "3 MN",
+    "moment_resistance": "4 MN*m",
+}
+
+
+@pytest.fixture(scope="module")
+def sheet():
+    return Sheet(case_from(CASE))
+
+
+def number(cell):
+    """A printed number."""
+    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
+    mantissa, _, power = re.sub(r"\s", "", cell).partition("×10")
+    return float(mantissa.translate(digits)) * 10.0 ** int(power.translate(digits) or 0)
+
+
+def cells(table, column):
+    return [row[column] for row in table.data()["rows"]]
+
+
+def test_what_the_unit_force_does_is_printed_and_in_equilibrium(sheet):
+    column = sheet.calculation.case.column
+    Rb, Rt, Mb, Mn, Mt = map(number, cells(sheet.pier.unit_forces(), 2))
+    assert Rb + Rt == pytest.approx(1.0, abs=2e-5)
+    assert Mb + Rb * (1.2 + 0.8) == pytest.approx(Mn, abs=1e-3)
+    assert Mt + Rt * (9.0 - 1.2) == pytest.approx(Mn, abs=1e-3)
+    heights = joints(column, 1.2)
+    _, _, forces, moments = stiffness_method.solve(column, heights, 1.2)
+    assert (Rb, Rt) == pytest.approx([-float(force) for force in forces], rel=1e-4)
+    assert Mb == pytest.approx(float(moments[0]), rel=1e-4)
+
+
+def test_works_add_up_to_the_deflection(sheet):
+    works = list(map(number, cells(sheet.pier.stiffness(), 3)))
+    assert sum(works[:-1]) == pytest.approx(works[-1], rel=2e-4)
+    column = sheet.calculation.case.column
+    heights = joints(column, 1.2)
+    deflections, _, _, _ = stiffness_method.solve(column, heights, 1.2)
+    exact = 1e6 * float(deflections[heights.index(1.2)])
+    assert works[-1] == pytest.approx(exact, rel=1e-4)
+
+
+def test_masses_add_up_to_the_equivalent_mass(sheet):
+    table = sheet.pier.shape_table()
+    masses = list(map(number, cells(table, 5)))
+    assert sum(masses[:-1]) == pytest.approx(masses[-1], rel=2e-4)
+    assert masses[-1] == pytest.approx(sheet.calculation.pier.mass, rel=1e-4)
+    per_length = list(map(number, cells(sheet.pier.parts(), 3)))
+    for part, mass, per in zip(cells(table, 4), masses, per_length, strict=False):
+        assert number(part) * per == pytest.approx(mass, rel=2e-4)
+    top = number(cells(table, 3)[-2])
+    assert masses[-2] == pytest.approx(60e3 * top**2, rel=1e-3)
+
+
+def test_the_larger_of_both_methods_governs_unless_one_is_asked_for():
+    found = {
+        asked: Sheet(case_from(CASE | {"member_forces": asked} if asked else CASE)).calculation
+        for asked in ("", "beam", "static")
+    }
+    shear = {asked: calculation.demands["shear"] for asked, calculation in found.items()}
+    assert shear["beam"].beam == shear[""].beam
+    assert shear["static"].beam is None
+    assert shear[""].value == max(shear[""].beam, shear[""].static)
+    assert (shear["beam"].value, shear["static"].value) == (shear[""].beam, shear[""].static)
+    for calculation in found.values():
+        for name, resistance in (("shear", 3e6), ("moment", 4e6)):
+            ratio = calculation.demands[name].value / resistance
+            assert calculation.utilisations[name] == ratio
+
+
+def test_the_page_says_which_method_governs(sheet):
+    page = page_of(CASE)
+    demands = sheet.calculation.demands
+    assert demands["shear"].method == "beam"
+    assert "The column as a beam takes" in page
+    assert "column as a beam" in page
+    assert "The column as a beam takes" not in page_of(CASE | {"member_forces": "static"})
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"steps": "3 m"}, "steps must be a list of heights with the keys of their sections, got"),
+        ({"steps": [{"height": "3 m"}]}, "steps[1].column_shape is missing"),
+        (
+            {"steps": [{"height": "3", "column_shape": "circular", "column_diameter": "1 m"}]},
+            "steps[1].height must have a unit (m, mm, ft, in), got '3'",
+        ),
+        (
+            {"steps": [{"height": "3 m", "column_shape": "circular", "diameter": "1 m"}]},
+            "'diameter' is not a key of a step; did you mean column_diameter?",
+        ),
+        (
+            {"steps": [{"height": "3 m", "column_shape": "circular", "column_width": "1 m"}]},
+            "steps[1].column_diameter is missing: it belongs to column_shape circular",
+        ),
+        (
+            {"steps": [{"height": "9 m", "column_shape": "circular", "column_diameter": "1 m"}]},
+            "step height must be above 0 m and below the height 9 m, got 9 m",
+        ),
+        ({"base_stiffness": "-1 MN/m"}, "base_stiffness must be positive, got '-1 MN/m'"),
+        (
+            {"base_rotation_stiffness": "20 GN*m"},
+            "base_rotation_stiffness must be a rotational stiffness (kN*m/rad, MN*m/rad, "
+            "kip*ft/rad), got '20 GN*m', which is a moment",
+        ),
+        ({"top_mass": "60 kN"}, "top_mass must be a mass (kg, t, lb), got '60 kN'"),
+        ({"member_forces": "both"}, "member_forces must be 'larger', 'beam' or 'static'"),
+        ({"effective_stiffness": "6 GN*m^2"}, "give only one of stiffness_factor and"),
+        ({"impact_height": "9.1 m"}, "impact_height must be at least 0 m and at most the height"),
+    ],
+)
+def test_bad_input_is_one_line(change, message):
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        case_from(CASE | change)
+    assert "\n" not in str(caught.value)
+
+
+@settings(max_examples=15)
+@given(arranged_columns(), st.sampled_from(["SI", "US"]))
+def test_any_column_is_drawn(case, system):
+    column, impact_height = case
+    ElementTree.fromstring(draw_elevation(column.struck_at(impact_height), system))

@@ -1,0 +1,46 @@
+"""Values that are legal but unusual are named, with what is usual."""
+
+import pytest
+from sheet_page import US_CASE
+
+from pierimpact.files.case import case_from
+from pierimpact.files.inputs import PHYSICAL_KEYS
+from pierimpact.files.plausible import USUAL, unusual
+from pierimpact.report.calculation import calculate
+from pierimpact.report.sheet.summary import limitations
+
+
+def test_an_ordinary_case_has_nothing_unusual():
+    assert not list(unusual(case_from(US_CASE).inputs))
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "words"),
+    [
+        (
+            {"elastic_modulus": "3.2 GPa", "units": "SI"},
+            "elastic_modulus",
+            "Unusual: elastic modulus 3.2 GPa, where 10 to 220 is usual.",
+        ),
+        (
+            {"column_height": "40 m", "units": "SI"},
+            "column_height",
+            "Unusual: column height 40 m, where 2.0 to 30 is usual.",
+        ),
+        (
+            {"speed": "180 mph"},
+            "speed",
+            "Unusual: speed at first touch 180 mph, where 6.2 to 99 is usual.",
+        ),
+    ],
+)
+def test_an_unusual_value_is_named_on_page_one(change, key, words):
+    steel = {"concrete_strength": None, "elastic_modulus": "25 GPa", "member_forces": "static"}
+    case = case_from(US_CASE | steel | change)
+    assert [found.key for found in unusual(case.inputs)] == [key]
+    assert any(str(line).startswith(words) for line in limitations(calculate(case)))
+
+
+def test_ranges_are_of_physical_keys():
+    assert set(USUAL) <= set(PHYSICAL_KEYS)
+    assert all(0.0 < least < most for least, most in USUAL.values())
