@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from pierimpact.pier.column import PierColumn
     from pierimpact.pier.equivalent import EquivalentPier
     from pierimpact.pier.sections import CircularSection, RectangularSection
+    from pierimpact.pier.static_forces import StaticForcesWarning
     from pierimpact.vehicle.crush import CrushSpring
     from pierimpact.vehicle.truck import Truck
 
@@ -26,6 +27,7 @@ __all__ = [
     "InputError",
     "PierColumn",
     "RectangularSection",
+    "StaticForcesWarning",
     "Truck",
     "cargo_spectrum",
     "design_reaction",
@@ -33,6 +35,7 @@ __all__ = [
     "engine_spectrum",
     "exercises",
     "load_truck",
+    "maps",
     "peak_reactions",
     "simulate",
     "tables",
@@ -51,10 +54,11 @@ _HOMES = {
     "pier.column": ["PierColumn"],
     "pier.equivalent": ["EquivalentPier"],
     "pier.sections": ["CircularSection", "RectangularSection"],
+    "pier.static_forces": ["StaticForcesWarning"],
     "vehicle.crush": ["CrushSpring"],
     "vehicle.truck": ["Truck"],
 }
-_MODULES = ("exercises", "tables", "widgets")
+_MODULES = ("exercises", "maps", "tables", "widgets")
 
 
 def __getattr__(name: str) -> Any:

@@ -1,5 +1,6 @@
 """The pier as a column: its deflection under the impact, and the equivalent pier (Eqs 1–3)."""
 
+import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -11,9 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.checks import InputError, not_negative, number, one_of, positive
 from pierimpact.handcalc import Calculation, Real
 from pierimpact.pier.beam import BeamPier, Part, beam_pier
-from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass
+from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass, natural_frequency
 from pierimpact.pier.member_forces import MemberForces
 from pierimpact.pier.sections import Section
+from pierimpact.pier.static_forces import StaticForces, StaticForcesWarning
 from pierimpact.pier.unit_force import BY_ENDS
 
 END_CONDITIONS = ("fixed", "pinned", "free")
@@ -109,6 +111,11 @@ class PierColumn:
         """Mass per unit length m̄ = ρA [kg/m]."""
         return self.values["mbar"]
 
+    @property
+    def mass(self) -> float:
+        """Mass [kg]."""
+        return self.mass_per_length * self.height
+
     def struck_at(self, impact_height: float) -> "StruckColumn":
         """Return the column under a unit force at `impact_height` [m]."""
         return StruckColumn(column=self, impact_height=impact_height)
@@ -127,8 +134,17 @@ class PierColumn:
         -------
         EquivalentPier
             Mass m_p, stiffness k_p and damping ratio ζ.
+
+        Warns
+        -----
+        StaticForcesWarning
+            Where member forces under the reaction as a static force may be too low.
         """
-        return self.struck_at(impact_height).equivalent(damping_ratio)
+        struck = self.struck_at(impact_height)
+        pier = struck.equivalent(damping_ratio)
+        if not struck.static_forces.hold:
+            warnings.warn(struck.static_forces.sentence, StaticForcesWarning, stacklevel=2)
+        return pier
 
     def beam(
         self, impact_height: float, damping_ratio: float = 0.05, modes: int | None = None
@@ -144,7 +160,7 @@ class PierColumn:
         modes : int, optional
             As in `pierimpact.pier.beam.beam_pier`.
         """
-        equivalent = self.equivalent(impact_height, damping_ratio)
+        equivalent = self.struck_at(impact_height).equivalent(damping_ratio)
         joints = np.unique([0.0, float(impact_height), self.height]).tolist()
         rotary_inertia = self.density * self.section.second_moment
         uniform = (self.flexural_rigidity, self.shear_rigidity, self.mass_per_length)
@@ -260,6 +276,12 @@ class StruckColumn:
     def mass(self) -> float:
         """Equivalent mass m_p = m̄ ∫ φ² dz (Eq. 1 of the source paper) [kg]."""
         return self.values["mp"]
+
+    @property
+    def static_forces(self) -> StaticForces:
+        """Whether member forces under the reaction as a static force hold for the column."""
+        frequency = float(natural_frequency(self.mass, self.stiffness))
+        return StaticForces(self.column.base, self.column.top, frequency)
 
     def equivalent(self, damping_ratio: float = 0.05) -> EquivalentPier:
         """Return the pier as one degree of freedom, with a damping ratio ζ [-]."""

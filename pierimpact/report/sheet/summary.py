@@ -122,6 +122,8 @@ def limitations(calculation: Calculation) -> Iterator[str]:
     for name, ratio in calculation.utilisations.items():
         if ratio > 1.0:
             yield f"The {name} is {rounded(ratio, 3)} times the resistance."
+    if not calculation.static_forces.hold:
+        yield calculation.static_forces.sentence
     limits = "; ".join(limits_of_the_study(design.outside, design.overlapping, case.inputs.units))
     if limits:
         yield (
