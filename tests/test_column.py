@@ -10,6 +10,9 @@ from hypothesis import strategies as st
 
 from pierimpact import CircularSection, EquivalentPier, InputError, PierColumn, RectangularSection
 
+# Stiffness and mass are of interest here, for columns of all kinds.
+pytestmark = pytest.mark.filterwarnings("ignore::pierimpact.StaticForcesWarning")
+
 EXAMPLE = {
     "height": 5.0,
     "section": CircularSection(diameter=0.914),

@@ -96,7 +96,7 @@ def _draw(
         axes.text(*corner, words, transform=axes.transAxes, ha=alignment, weight="bold")
     for name, found in marked.items():
         x, y = getattr(found, quantity.name), getattr(found, force)
-        axes.plot([x], [y], "D", color=INK, markerfacecolor="white", markersize=5.0, zorder=5)
+        axes.plot([x], [y], "D", color=INK, markerfacecolor="white", markersize=5.0, zorder=7)
         style.note(axes, name, (x, y), (6.0, -3.0), weight="bold", zorder=6, bbox=_LABEL)
     axes.set(xlabel=quantity.heading, xlim=quantity.span, yscale="log", ylim=_SPAN)
     style.logarithmic(axes, quantity.ticks)
