@@ -42,7 +42,8 @@ def static_forces(columns: Mapping[str, Struck] = EXAMPLES) -> HTML:
     Parameters
     ----------
     columns : mapping of str to Struck, optional
-        Collisions to mark, by name; each is calculated in both ways.
+        Collisions to mark, by name, each as `Struck(truck, column, impact_height, damping_ratio,
+        speed)` in SI units; it is calculated in both ways.
     """
     outcome = json.loads(OUTCOME_FILE.read_text(encoding="utf-8"))
     marked = {name: compare(struck) for name, struck in columns.items()}
