@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         RectangularSection,
         RegularPolygonSection,
     )
+    from pierimpact.pier.static_forces import StaticForcesWarning
     from pierimpact.vehicle.crush import CrushSpring
     from pierimpact.vehicle.truck import Truck
 
@@ -43,6 +44,7 @@ __all__ = [
     "PierColumn",
     "RectangularSection",
     "RegularPolygonSection",
+    "StaticForcesWarning",
     "Step",
     "Truck",
     "cargo_spectrum",
@@ -51,6 +53,7 @@ __all__ = [
     "engine_spectrum",
     "exercises",
     "load_truck",
+    "maps",
     "peak_reactions",
     "simulate",
     "tables",
@@ -79,10 +82,11 @@ _HOMES = {
         "RectangularSection",
         "RegularPolygonSection",
     ],
+    "pier.static_forces": ["StaticForcesWarning"],
     "vehicle.crush": ["CrushSpring"],
     "vehicle.truck": ["Truck"],
 }
-_MODULES = ("exercises", "tables", "widgets")
+_MODULES = ("exercises", "maps", "tables", "widgets")
 
 
 def __getattr__(name: str) -> Any:

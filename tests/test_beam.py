@@ -13,6 +13,9 @@ from pierimpact import InputError
 from pierimpact.pier.arrangement import SUPPORTS, Arrangement, Part
 from pierimpact.pier.beam import beam_pier
 
+# Stiffness and mass are of interest here, for columns of all kinds.
+pytestmark = pytest.mark.filterwarnings("ignore::pierimpact.StaticForcesWarning")
+
 # Closed forms.
 
 

@@ -674,7 +674,8 @@ def test_the_impact_height_by_the_rule(calculated):
         top=calculated.word("tab-inputs", "Top of the column"),
     )
     height = float(found[1]) * mathml.size(found[2])
-    trial = reference.solve(calculated.truck, column.equivalent(height, values["ζ"]), values["V"])
+    pier = column.struck_at(height).equivalent(values["ζ"])
+    trial = reference.solve(calculated.truck, pier, values["V"])
     texts = [(text or "none").replace("\u202f", "") for text in (found[3], found[5])]
     for peak, text in zip((trial.engine, trial.cargo), texts, strict=True):
         close_to_model(peak, text, mathml.size(found[4]))

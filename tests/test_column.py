@@ -26,6 +26,9 @@ from pierimpact import (
 )
 from pierimpact.pier.unit_force import BY_ENDS
 
+# Stiffness and mass are of interest here, for columns of all kinds.
+pytestmark = pytest.mark.filterwarnings("ignore::pierimpact.StaticForcesWarning")
+
 EXAMPLE = {
     "height": 5.0,
     "section": CircularSection(diameter=0.914),

@@ -86,7 +86,8 @@ def sensitivity(
     def at_height(value: float) -> Collision | None:
         if value >= column.height:
             return None
-        return Collision(truck, column.equivalent(value, pier.damping_ratio), speed)
+        other = column.struck_at(value).equivalent(pier.damping_ratio)
+        return Collision(truck, other, speed)
 
     def at_frequency(value: float) -> Collision:
         other = EquivalentPier.from_frequency(pier.mass, value, pier.damping_ratio)

@@ -1,6 +1,7 @@
 """The pier as a column: its deflection under the impact, and the equivalent pier (Eqs 1–3)."""
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,11 +14,12 @@ from pierimpact.checks import InputError, not_negative, number, one_of, positive
 from pierimpact.handcalc import Calculation
 from pierimpact.pier.arrangement import SUPPORTS, Arrangement, Part, Support, refuse_mechanism
 from pierimpact.pier.beam import BeamPier, beam_pier
-from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass
+from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass, natural_frequency
 from pierimpact.pier.member_forces import MemberForces
 from pierimpact.pier.rigidities import rigidities
 from pierimpact.pier.sections import Section
 from pierimpact.pier.static import UnitForce, unit_force
+from pierimpact.pier.static_forces import StaticForces, StaticForcesWarning
 from pierimpact.pier.unit_force import BY_ENDS
 
 END_CONDITIONS = tuple(SUPPORTS)
@@ -246,8 +248,17 @@ class PierColumn:
         -------
         EquivalentPier
             Mass m_p, stiffness k_p and damping ratio ζ.
+
+        Warns
+        -----
+        StaticForcesWarning
+            Where member forces under the reaction as a static force may be too low.
         """
-        return self.struck_at(impact_height).equivalent(damping_ratio)
+        struck = self.struck_at(impact_height)
+        pier = struck.equivalent(damping_ratio)
+        if not struck.static_forces.hold:
+            warnings.warn(struck.static_forces.sentence, StaticForcesWarning, stacklevel=2)
+        return pier
 
     def beam(
         self, impact_height: float, damping_ratio: float = 0.05, modes: int | None = None
@@ -263,7 +274,7 @@ class PierColumn:
         modes : int, optional
             As in `pierimpact.pier.beam.beam_pier`.
         """
-        equivalent = self.equivalent(impact_height, damping_ratio)
+        equivalent = self.struck_at(impact_height).equivalent(damping_ratio)
         return beam_pier(*self.arrangement.with_joint(float(impact_height)), equivalent, modes)
 
     def member_forces(self, reaction: float, impact_height: float) -> MemberForces:
@@ -385,6 +396,15 @@ class StruckColumn:
     def mass(self) -> float:
         """Equivalent mass m_p = ∫ m̄ φ² dz + m_t φ(H)² (Eq. 1 of the source paper) [kg]."""
         return self.unit_force.mass
+
+    @property
+    def static_forces(self) -> StaticForces:
+        """Whether member forces under the reaction as a static force hold for the column."""
+        frequency = float(natural_frequency(self.mass, self.stiffness))
+        base, top = (
+            "fixed" if end.rotation_stiffness > 0.0 else "pinned" for end in self.column.supports
+        )
+        return StaticForces(base, top, frequency)
 
     def equivalent(self, damping_ratio: float = 0.05) -> EquivalentPier:
         """Return the pier as one degree of freedom, with a damping ratio ζ [-]."""

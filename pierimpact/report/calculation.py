@@ -15,6 +15,7 @@ from pierimpact.design.reaction import (
     nominal_impact_height,
 )
 from pierimpact.design.sensitivity import Sensitivity, sensitivity
+from pierimpact.design.static_forces import StaticForcesInCollision
 from pierimpact.files.case import Case
 from pierimpact.pier.column import StruckColumn
 from pierimpact.pier.equivalent import EquivalentPier
@@ -126,6 +127,12 @@ class Calculation:
     def member_forces(self) -> MemberForces:
         """Member forces under the design force as a static force."""
         return self.struck.member_forces(self.design_force)
+
+    @property
+    def static_forces(self) -> StaticForcesInCollision:
+        """Whether these member forces hold for a column that vibrates."""
+        largest = float(self.history.contact_force.max())
+        return StaticForcesInCollision(self.struck.static_forces, self.design_force, largest)
 
     @cached_property
     def beam_forces(self) -> MemberForceHistory | None:

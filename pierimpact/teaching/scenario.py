@@ -147,7 +147,7 @@ class Scenario:
         mass, frequency = self.pier_mass, self.pier_frequency
         if mass is not None and frequency is not None:
             return EquivalentPier.from_frequency(mass, frequency, self.damping_ratio)
-        return self.column.equivalent(self.impact_height, self.damping_ratio)
+        return self.column.struck_at(self.impact_height).equivalent(self.damping_ratio)
 
     @cached_property
     def collision(self) -> Collision:

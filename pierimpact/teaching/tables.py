@@ -4,9 +4,12 @@ import json
 
 from IPython.display import HTML
 
+from pierimpact.design import static_study
 from pierimpact.design.codes import code_forces
+from pierimpact.design.static_forces import ABOVE, BELOW
 from pierimpact.design.study import OUTCOME_FILE
 from pierimpact.files.trucks import read_truck_file
+from pierimpact.pier.static_forces import LOWEST_FREQUENCY, QUICK, SLOW, TOP
 from pierimpact.symbols import BY_KEY
 from pierimpact.teaching.markup import table
 from pierimpact.teaching.scenario import REFERENCE
@@ -60,3 +63,32 @@ def accuracy() -> HTML:
     ]
     heads = ("Level", "Reaction", *(head for head, _, _ in columns))
     return HTML(table(heads, rows, right=range(2, len(heads))))  # type: ignore[no-untyped-call]
+
+
+def static_forces() -> HTML:
+    """Return what the rules for static member forces tell, by the study behind them."""
+    found = json.loads(static_study.OUTCOME_FILE.read_text(encoding="utf-8"))["conclusions"]
+    by_column, by_collision = (found[name] for name in static_study.RULES)
+    groups = {
+        f"Pier frequency from {LOWEST_FREQUENCY:g} Hz": by_column[QUICK],
+        f"Pier frequency below {LOWEST_FREQUENCY:g} Hz": by_column[SLOW],
+        ABOVE.capitalize(): by_collision[ABOVE],
+        BELOW.capitalize(): by_collision[BELOW],
+        static_study.UNDER_THE_LARGER.capitalize(): found[static_study.UNDER_THE_LARGER],
+        f"Column {TOP} alone": by_column[TOP],
+    }
+    figures = {"5 %": ".2f", "50 %": ".2f", "95 %": ".2f", "too low": ".0%"}
+    rows = [
+        [
+            name,
+            str(group["cases"]),
+            *(
+                format(group[force][figure], form)
+                for force in static_study.FORCES
+                for figure, form in figures.items()
+            ),
+        ]
+        for name, group in groups.items()
+    ]
+    heads = [f"{force.capitalize()}, {name}" for force in static_study.FORCES for name in figures]
+    return HTML(table(("", "Columns", *heads), rows, right=range(1, 10)))  # type: ignore[no-untyped-call]

@@ -157,6 +157,8 @@ def limitations(calculation: Calculation) -> Iterator[str]:
             f"Unusual: {meaning} {value} {unit}".rstrip()
             + f", where {least} to {most} is usual. Check the value and its unit."
         )
+    if calculation.beam_forces is None and not calculation.static_forces.hold:
+        yield calculation.static_forces.sentence
     limits = "; ".join(limits_of_the_study(design.outside, design.overlapping, case.inputs.units))
     if limits:
         yield (
