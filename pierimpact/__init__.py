@@ -7,6 +7,7 @@ if TYPE_CHECKING:
     from pierimpact.checks import InputError
     from pierimpact.collision.parameters import Collision
     from pierimpact.collision.simulate import peak_reactions, simulate
+    from pierimpact.design.band import reaction_band
     from pierimpact.design.reaction import design_reaction, design_reactions
     from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
     from pierimpact.files.trucks import load_truck
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from pierimpact.pier.equivalent import EquivalentPier
     from pierimpact.pier.sections import CircularSection, RectangularSection
     from pierimpact.vehicle.crush import CrushSpring
+    from pierimpact.vehicle.spread import Lognormal, Uniform
     from pierimpact.vehicle.truck import Truck
 
 __version__ = "0.1.0"
@@ -24,9 +26,11 @@ __all__ = [
     "CrushSpring",
     "EquivalentPier",
     "InputError",
+    "Lognormal",
     "PierColumn",
     "RectangularSection",
     "Truck",
+    "Uniform",
     "cargo_spectrum",
     "design_reaction",
     "design_reactions",
@@ -34,6 +38,7 @@ __all__ = [
     "exercises",
     "load_truck",
     "peak_reactions",
+    "reaction_band",
     "simulate",
     "tables",
     "widgets",
@@ -45,6 +50,7 @@ _HOMES = {
     "checks": ["InputError"],
     "collision.parameters": ["Collision"],
     "collision.simulate": ["peak_reactions", "simulate"],
+    "design.band": ["reaction_band"],
     "design.reaction": ["design_reaction", "design_reactions"],
     "design.spectra": ["cargo_spectrum", "engine_spectrum"],
     "files.trucks": ["load_truck"],
@@ -52,6 +58,7 @@ _HOMES = {
     "pier.equivalent": ["EquivalentPier"],
     "pier.sections": ["CircularSection", "RectangularSection"],
     "vehicle.crush": ["CrushSpring"],
+    "vehicle.spread": ["Lognormal", "Uniform"],
     "vehicle.truck": ["Truck"],
 }
 _MODULES = ("exercises", "tables", "widgets")
