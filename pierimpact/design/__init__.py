@@ -1,5 +1,5 @@
 """The design procedure by closed formulas, from truck, pier and speed to the design reaction.
 
 `procedure` has the formulas in their order; `domain` says what they were checked for, and `study`
-how good they are; `reaction` is what callers use.
+how good they are; `reaction` is what callers use. `band` says how sure a reaction is.
 """

@@ -2,5 +2,5 @@
 
 `style` is under all of them. One subject a file: `collision` (forces and energy in time),
 `spectrum`, `amplification`, `shape`, `comparison`, `influence` and `schematic` draw on axes and
-know nothing of notebooks; `figures` and `validation` make whole figures for pages.
+know nothing of notebooks; `figures`, `band` and `validation` make whole figures for pages.
 """
