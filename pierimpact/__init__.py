@@ -7,6 +7,7 @@ if TYPE_CHECKING:
     from pierimpact.checks import InputError
     from pierimpact.collision.parameters import Collision
     from pierimpact.collision.simulate import peak_reactions, simulate
+    from pierimpact.design.band import reaction_band
     from pierimpact.design.reaction import design_reaction, design_reactions
     from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
     from pierimpact.files.trucks import load_truck
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     )
     from pierimpact.pier.static_forces import StaticForcesWarning
     from pierimpact.vehicle.crush import CrushSpring
+    from pierimpact.vehicle.spread import Lognormal, Uniform
     from pierimpact.vehicle.truck import Truck
 
 __version__ = "0.1.0"
@@ -40,6 +42,7 @@ __all__ = [
     "HollowCircularSection",
     "HollowRectangularSection",
     "InputError",
+    "Lognormal",
     "OblongSection",
     "PierColumn",
     "RectangularSection",
@@ -47,6 +50,7 @@ __all__ = [
     "StaticForcesWarning",
     "Step",
     "Truck",
+    "Uniform",
     "cargo_spectrum",
     "design_reaction",
     "design_reactions",
@@ -55,6 +59,7 @@ __all__ = [
     "load_truck",
     "maps",
     "peak_reactions",
+    "reaction_band",
     "simulate",
     "tables",
     "widgets",
@@ -66,6 +71,7 @@ _HOMES = {
     "checks": ["InputError"],
     "collision.parameters": ["Collision"],
     "collision.simulate": ["peak_reactions", "simulate"],
+    "design.band": ["reaction_band"],
     "design.reaction": ["design_reaction", "design_reactions"],
     "design.spectra": ["cargo_spectrum", "engine_spectrum"],
     "files.trucks": ["load_truck"],
@@ -84,6 +90,7 @@ _HOMES = {
     ],
     "pier.static_forces": ["StaticForcesWarning"],
     "vehicle.crush": ["CrushSpring"],
+    "vehicle.spread": ["Lognormal", "Uniform"],
     "vehicle.truck": ["Truck"],
 }
 _MODULES = ("exercises", "maps", "tables", "widgets")

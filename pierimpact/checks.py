@@ -4,7 +4,8 @@ import math
 import unicodedata
 from collections.abc import Collection, Iterable
 from difflib import get_close_matches
-from typing import SupportsFloat
+from operator import index
+from typing import SupportsFloat, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,6 +44,25 @@ def not_negative(name: str, value: SupportsFloat) -> float:
     result = number(name, value)
     if result < 0.0:
         raise InputError(f"{name} must not be negative, got {result:g}")
+    return result
+
+
+def ratio(name: str, value: SupportsFloat) -> float:
+    """Return `value` as a float from zero to below one."""
+    result = number(name, value)
+    if not 0.0 <= result < 1.0:
+        raise InputError(f"{name} must lie from 0 to below 1, got {result:g}")
+    return result
+
+
+def whole(name: str, value: SupportsIndex, least: int) -> int:
+    """Return `value` as a whole number from `least` on."""
+    try:
+        result = index(value)
+    except TypeError:
+        raise InputError(f"{name} must be a whole number, got {brief(value)}") from None
+    if result < least:
+        raise InputError(f"{name} must be at least {least}, got {result}")
     return result
 
 

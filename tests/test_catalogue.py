@@ -9,9 +9,16 @@ from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError
 from pierimpact.files.trucks import load_truck, read_truck_file, truck_names
 from pierimpact.vehicle.crush import CrushSpring
+from pierimpact.vehicle.spread import Lognormal, Uniform
+from pierimpact.vehicle.truck import QUANTITIES
 
 CATALOGUE = Path(pierimpact.__file__).parent / "trucks"
 REFERENCE = (CATALOGUE / "single-unit-8t.toml").read_text("utf-8")
+
+
+def with_spread(given, text=REFERENCE):
+    """The reference truck with another spread of its engine's mass."""
+    return text.replace("\nspread = 0.3\n", f"\n{given}\n", 1)
 
 
 def test_the_reference_truck():
@@ -102,6 +109,12 @@ def test_a_truck_of_ones_own_loads_by_path(tmp_path):
         ('status = "illustrative"', 'status = "cited"', "status must be one of read, secondary"),
         ("[engine_mass]", r'["a\nb"]', r"'a\nb' is not a truck parameter"),
         ("name =", "name", "is not valid TOML"),
+        (
+            'spread_status = "assumed"',
+            'spread_status = "sure"',
+            "engine_mass.spread_status must be one of read, secondary",
+        ),
+        ('value = "road"', 'value = "road"\nspread = 0.3', "'friction_on.spread' is not a key"),
     ],
 )
 def test_a_bad_truck_file_is_one_line(tmp_path, old, new, message):
@@ -111,6 +124,44 @@ def test_a_bad_truck_file_is_one_line(tmp_path, old, new, message):
     with pytest.raises(InputError, match=re.escape(message)) as caught:
         load_truck(path)
     assert "mine.toml" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("spread = 1.0", "engine_mass.spread must lie from 0 to below 1, got 1"),
+        ("spread = -0.1", "engine_mass.spread must lie from 0 to below 1, got -0.1"),
+        ('spread = "wide"', "engine_mass.spread must be a number, got 'wide'"),
+        ("spread = true", "engine_mass.spread must be a number, got True"),
+        (
+            "coefficient_of_variation = 2",
+            "engine_mass.coefficient_of_variation must lie from",
+        ),
+        (
+            "sprea = 0.3",
+            "'engine_mass.sprea' is not a key; did you mean engine_mass.spread?",
+        ),
+        (
+            "low = 600",
+            "engine_mass must have one of spread, coefficient_of_variation, or low",
+        ),
+        ("spread = 0.3\nlow = 600\nhigh = 800", "or low and high, got spread and low and h"),
+        (
+            "low = 710\nhigh = 800",
+            "engine_mass must have 0 ≤ low ≤ value ≤ high and a value",
+        ),
+        ("low = 600\nhigh = 690", "got low 600, value 700 and high 690"),
+        ("low = -1\nhigh = 800", "got low -1, value 700 and high 800"),
+        ("low = 0\nhigh = 800", "spread of engine_mass must not begin at zero"),
+        ("", "engine_mass has a spread_source or spread_status but no spread"),
+    ],
+)
+def test_a_bad_spread_is_one_line(tmp_path, given, message):
+    path = tmp_path / "mine.toml"
+    path.write_text(with_spread(given), encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        load_truck(path)
     assert "\n" not in str(caught.value)
 
 
@@ -148,3 +199,57 @@ def test_not_text(tmp_path):
     (tmp_path / "folder.toml").mkdir()
     with pytest.raises(InputError, match="cannot be read: Is a directory"):
         load_truck(tmp_path / "folder.toml")
+
+
+def test_spreads_of_the_reference_truck_are_this_projects_judgement():
+    truck_file = read_truck_file("single-unit-8t")
+    assert truck_file.truck.spread == dict.fromkeys(QUANTITIES, Uniform.about(0.3))
+    for name in QUANTITIES:
+        parameter = truck_file[name]
+        assert parameter.spread == Uniform.about(0.3)
+        assert (parameter.spread_source, parameter.spread_status) == (
+            "judgement of this project",
+            Certainty.ASSUMED,
+        )
+    assert truck_file["friction_on"].spread is None
+
+
+def test_a_truck_file_without_spreads_is_known_exactly(tmp_path):
+    path = tmp_path / "mine.toml"
+    lines = [line for line in REFERENCE.splitlines() if not line.startswith("spread")]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    assert load_truck(path) == load_truck("single-unit-8t")
+    assert load_truck(path).spread == {}
+    parameter = read_truck_file(path)["engine_mass"]
+    assert (parameter.spread, parameter.spread_source, parameter.spread_status) == (None, "", None)
+
+
+def test_each_kind_of_spread(tmp_path):
+    path = tmp_path / "mine.toml"
+    for given, spread in (
+        ("coefficient_of_variation = 0.1", Lognormal(0.1)),
+        ("low = 560\nhigh = 1050", Uniform(0.8, 1.5)),
+        ("low = 700.0\nhigh = 700", Uniform(1.0, 1.0)),
+        ("spread = 0", Uniform(1.0, 1.0)),
+    ):
+        text = with_spread(given)
+        path.write_text(text, encoding="utf-8")
+        truck_file = read_truck_file(path)
+        assert truck_file.truck.spread["engine_mass"] == truck_file["engine_mass"].spread == spread
+        # Source and status are optional.
+        for line in (
+            'spread_source = "judgement of this project"\n',
+            'spread_status = "assumed"\n',
+        ):
+            text = text.replace(line, "", 1)
+            path.write_text(text, encoding="utf-8")
+            assert load_truck(path).spread["engine_mass"] == spread
+        assert read_truck_file(path)["engine_mass"].spread_status is None
+
+
+def test_friction_may_begin_at_zero(tmp_path):
+    path = tmp_path / "mine.toml"
+    start = REFERENCE.index("[friction_force]")
+    friction = with_spread("low = 0\nhigh = 43", REFERENCE[start:])
+    path.write_text(REFERENCE[:start] + friction, encoding="utf-8")
+    assert load_truck(path).spread["friction_force"] == Uniform(0.0, 2.0)

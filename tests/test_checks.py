@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pierimpact import InputError
-from pierimpact.checks import not_negative, number, one_of, positive
+from pierimpact.checks import not_negative, number, one_of, positive, ratio, whole
 
 
 @pytest.mark.parametrize("check", [number, positive, not_negative])
@@ -37,6 +37,20 @@ def test_broken_rules_are_named(check, value, message):
 def test_limits_are_inside():
     assert not_negative("speed", 0.0) == 0.0
     assert positive("speed", 5e-324) == 5e-324
+
+
+def test_shares_and_whole_numbers():
+    assert ratio("spread", 0) == 0.0
+    assert whole("size", np.int64(3), 3) == 3
+    for value, message in (
+        (1, "lie from 0 to below 1, got 1"),
+        (-1e-9, "lie from 0 .*, got -1e-09"),
+    ):
+        with pytest.raises(InputError, match=f"^spread must {message}$"):
+            ratio("spread", value)
+    for value, message in ((2, "be at least 3, got 2"), (3.0, r"be a whole number, got 3\.0")):
+        with pytest.raises(InputError, match=f"^size must {message}$"):
+            whole("size", value, 3)
 
 
 def test_one_of():

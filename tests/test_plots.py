@@ -8,6 +8,7 @@ from matplotlib.patches import Polygon
 
 from pierimpact import (
     CircularSection,
+    EquivalentPier,
     FilledCircularSection,
     FilledRectangularSection,
     HollowCircularSection,
@@ -17,10 +18,12 @@ from pierimpact import (
     RectangularSection,
     RegularPolygonSection,
     load_truck,
+    reaction_band,
 )
 from pierimpact.design.sensitivity import sensitivity
 from pierimpact.plots import (
     amplification,
+    band,
     collision,
     comparison,
     figures,
@@ -30,11 +33,11 @@ from pierimpact.plots import (
     shape,
     spectrum,
 )
-from pierimpact.plots.style import BODIES
+from pierimpact.plots.style import BODIES, ORANGE, SKY
 from pierimpact.teaching import explorer_data
 from pierimpact.teaching.animation import Animation
 from pierimpact.teaching.scenario import Scenario
-from pierimpact.units import printed
+from pierimpact.units import printed, unit_size
 
 USUAL = Scenario()
 SECTIONS = [
@@ -280,3 +283,38 @@ def test_a_section_is_drawn_as_large_as_it_is(monkeypatch, drawn, system):
         str(printed(drawn.values[name], "section length", system, given=True)) for name in named
     }
     assert {text.partition(" = ")[2] for text in words(axes) if " = " in text} == shown
+
+
+@pytest.mark.parametrize("system", ["SI", "US"])
+def test_a_band_and_what_moves_it(monkeypatch, system):
+    monkeypatch.setattr(band, "to_svg", lambda figure: figure)
+    pier = EquivalentPier(mass=8e3, stiffness=284e6, damping_ratio=0.05)
+    found = reaction_band(load_truck("single-unit-8t"), pier, 22.0, size=64)
+    figure = band.draw_band(found, system)
+    strips, tornado = figure.axes
+    size = unit_size("force", system)
+    for patch, name in zip(strips.patches, ("governing", "engine", "cargo"), strict=True):
+        low, high = found.quantiles((0.05, 0.95), of=name) / size
+        assert (patch.get_x(), patch.get_x() + patch.get_width()) == pytest.approx((low, high))
+    drawn = {SKY: {}, ORANGE: {}}
+    for patch in tornado.patches:
+        end = patch.get_x() + patch.get_width()
+        drawn[to_hex(patch.get_facecolor())][round(patch.get_y() + 0.35)] = end
+    for row, ends in enumerate(found.tornado.values()):
+        assert (drawn[SKY][row], drawn[ORANGE][row]) == pytest.approx(np.divide(ends, size))
+    assert words(tornado).count("±30 %") == len(found.spread)
+    assert f"{100.0 * next(iter(found.influence.values())):.0f} %" in words(tornado)
+    names = [label.get_text() for label in tornado.get_yticklabels()]
+    assert len(names) == len(set(names)) == len(found.spread)
+    low, high = tornado.get_xlim()
+    assert low == 0.0
+    assert high > max(found.quantiles((0.95,)) / size)
+
+
+def test_a_band_without_width_or_cargo(monkeypatch):
+    monkeypatch.setattr(band, "to_svg", lambda figure: figure)
+    pier = EquivalentPier(mass=8e3, stiffness=284e6)
+    found = reaction_band(load_truck("single-unit-8t"), pier, 20.0 / 3.6, spread=0.0, size=4)
+    strips, tornado = band.draw_band(found, "SI").axes
+    assert words(strips) == ["no contact"]
+    assert words(tornado) == ["All parameters are known exactly."]

@@ -1,9 +1,10 @@
 import dataclasses
 import math
+import pickle
 
 import pytest
 
-from pierimpact import CrushSpring, InputError, Truck
+from pierimpact import CrushSpring, InputError, Lognormal, Truck, Uniform
 
 SPRING = CrushSpring(
     plateau_force=150e3, plateau_length=0.5, stiffness=150e6, unloading_stiffness=900e6
@@ -65,3 +66,46 @@ def test_bad_values_are_named(changes, message):
 def test_trucks_do_not_change():
     with pytest.raises(dataclasses.FrozenInstanceError):
         Truck(**EXAMPLE).body_mass = 1.0
+
+
+SPREAD = {"engine_mass": Uniform.about(0.3), "body_spring.stiffness": Lognormal(0.1)}
+
+
+def test_the_spread_travels_with_the_truck():
+    asked = dict(SPREAD)
+    truck = Truck(**EXAMPLE, spread=asked)
+    asked.clear()
+    assert truck.spread == SPREAD
+    assert dataclasses.replace(truck, engine_mass=1e3).spread == SPREAD
+    assert pickle.loads(pickle.dumps(truck)).spread == SPREAD
+    assert Truck(**EXAMPLE).spread == {}
+
+
+def test_a_spread_does_not_make_another_truck():
+    plain, uncertain = Truck(**EXAMPLE), Truck(**EXAMPLE, spread=SPREAD)
+    assert plain == uncertain
+    assert hash(plain) == hash(uncertain)
+    assert repr(plain) == repr(uncertain)
+
+
+def test_a_stated_mass_is_known():
+    truck = Truck(**EXAMPLE, spread=SPREAD | {"body_mass": Uniform.about(0.2)})
+    assert truck.with_mass(20e3).spread == SPREAD
+
+
+@pytest.mark.parametrize(
+    ("spread", "message"),
+    [
+        ({"engin_mass": Uniform.about(0.1)}, "'engin_mass' is not a parameter with a spread; did"),
+        ({"friction_on": Uniform.about(0.1)}, "'friction_on' is not a parameter with a spread"),
+        ({"engine_mass": 0.3}, r"spread of engine_mass must be Uniform or Lognormal, got 0\.3"),
+        ({"body_mass": Uniform(0.0, 2.0)}, "spread of body_mass must not begin at zero"),
+    ],
+)
+def test_bad_spreads_are_named(spread, message):
+    with pytest.raises(InputError, match=f"^{message}"):
+        Truck(**EXAMPLE, spread=spread)
+
+
+def test_friction_may_be_none_at_all():
+    assert Truck(**EXAMPLE, spread={"friction_force": Uniform(0.0, 1.3)}).spread

@@ -20,6 +20,11 @@ def single(group: T, index: int) -> T:
     return _with_each(lambda item: item[index].item(), group)
 
 
+def repeat(group: T, size: int) -> T:
+    """Return one of floats `size` times over."""
+    return _with_each(lambda item: np.full(size, item), group)
+
+
 def join(first: T, second: T) -> T:
     """Return those of both, in this order."""
     return _with_each(lambda *items: np.concatenate(items), first, second)

@@ -13,17 +13,14 @@ from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY, dimension
 from pierimpact.units import parse
 from pierimpact.vehicle.crush import CrushSpring
-from pierimpact.vehicle.truck import Truck
+from pierimpact.vehicle.spread import Lognormal, Spread, Uniform
+from pierimpact.vehicle.truck import PARAMETERS, SPRINGS, Truck
 
 _CATALOGUE = shipped("trucks")
 # Words for the status of a parameter; a parameter cited in the source paper was read there.
 _STATUSES = tuple(certainty for certainty in Certainty if certainty is not Certainty.CITED)
-_SPRINGS = ("engine_spring", "body_spring")
-_SPRING_PARAMETERS = tuple(CrushSpring.__dataclass_fields__)
-_PARAMETERS = (
-    *("engine_mass", "body_mass", "friction_force", "friction_on"),
-    *(f"{spring}.{name}" for spring in _SPRINGS for name in _SPRING_PARAMETERS),
-)
+_SPREADS = ("spread", "coefficient_of_variation", "low", "high")
+_OF_SPREADS = ("spread_source", "spread_status")
 
 
 class Parameter(NamedTuple):
@@ -34,6 +31,9 @@ class Parameter(NamedTuple):
     given: str  #: as the file has it, with its unit
     source: str
     status: Certainty
+    spread: Spread | None = None  #: None where the value counts as known
+    spread_source: str = ""  #: empty where none is given
+    spread_status: Certainty | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,12 +114,13 @@ def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile
     certainty = _certainty("status", status)
     entries = _with_dotted_names(table)
     for key in entries:
-        known(key, _PARAMETERS, "a truck parameter")
-    parameters = tuple(_parameter(key, entries.get(key)) for key in _PARAMETERS)
+        known(key, PARAMETERS, "a truck parameter")
+    parameters = tuple(_parameter(key, entries.get(key)) for key in PARAMETERS)
     values: dict[str, Any] = {parameter.name: parameter.value for parameter in parameters}
-    values |= {spring: _take_spring(spring, values) for spring in _SPRINGS}
+    values |= {spring: _take_spring(spring, values) for spring in SPRINGS}
+    spread = {parameter.name: parameter.spread for parameter in parameters if parameter.spread}
     return TruckFile(
-        truck=Truck(name=name, source=source, **values),
+        truck=Truck(name=name, source=source, spread=spread, **values),
         description=description,
         source=source,
         status=certainty,
@@ -131,8 +132,8 @@ def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile
 
 def _with_dotted_names(table: Mapping[str, Any]) -> dict[str, Any]:
     """Return the parameters by their names, a spring's as "engine_spring.stiffness"."""
-    entries = {key: entry for key, entry in table.items() if key not in _SPRINGS}
-    for spring in _SPRINGS:
+    entries = {key: entry for key, entry in table.items() if key not in SPRINGS}
+    for spring in SPRINGS:
         parameters = table.get(spring)
         if not isinstance(parameters, dict):
             raise InputError(f"{spring} must be a table of its parameters, got {brief(parameters)}")
@@ -147,26 +148,66 @@ def _parameter(name: str, entry: object) -> Parameter:
         )
     kind = dimension(BY_KEY[name])  # none for a word
     keys = ("value", "unit", "source", "status") if kind else ("value", "source", "status")
+    optional = (*_SPREADS, *_OF_SPREADS) if kind else ()
     for key in entry:
-        known(f"{name}.{key}", [f"{name}.{key}" for key in keys], "a key")
+        known(f"{name}.{key}", [f"{name}.{key}" for key in (*keys, *optional)], "a key")
     for key in keys:
         if key not in entry:
             raise InputError(f"{name}.{key} is missing")
     value, texts = entry["value"], {key: _text(f"{name}.{key}", entry[key]) for key in keys[1:]}
     if not kind:
         value = given = str(value)
-    elif isinstance(value, bool | str):
-        raise InputError(f"{name}.value must be a number, got {brief(value)}")
     else:
-        given = f"{number(f'{name}.value', value):.15g} {texts['unit']}"
+        given = f"{_number(name, 'value', entry):.15g} {texts['unit']}"
         value = parse(name, given, kind)
     status = _certainty(f"{name}.status", texts["status"])
-    return Parameter(name, value, given, texts["source"], status)
+    return Parameter(name, value, given, texts["source"], status, *_spread(name, entry))
+
+
+def _spread(name: str, entry: Mapping[str, Any]) -> tuple[Spread | None, str, Certainty | None]:
+    """Return a parameter's spread with its source and status, as far as its table gives them."""
+    given = {key: _number(name, key, entry) for key in _SPREADS if key in entry}
+    source, status = (
+        _text(f"{name}.{key}", entry[key]) if key in entry else "" for key in _OF_SPREADS
+    )
+    if not given:
+        if source or status:
+            raise InputError(f"{name} has a spread_source or spread_status but no spread")
+        return None, "", None
+    certainty = _certainty(f"{name}.spread_status", status) if status else None
+    return _distribution(name, float(entry["value"]), given), source, certainty
+
+
+def _distribution(name: str, value: float, given: Mapping[str, float]) -> Spread:
+    """Return the one spread that is given, of the value in its own unit."""
+    if given.keys() not in ({"spread"}, {"coefficient_of_variation"}, {"low", "high"}):
+        raise InputError(
+            f"{name} must have one of spread, coefficient_of_variation, or low and high, "
+            f"got {' and '.join(given)}"
+        )
+    if "low" in given:
+        low, high = given["low"], given["high"]
+        if not 0.0 <= low <= value <= high or value == 0.0:
+            raise InputError(
+                f"{name} must have 0 ≤ low ≤ value ≤ high and a value above 0, "
+                f"got low {low:g}, value {value:g} and high {high:g}"
+            )
+        return Uniform(low / value, high / value)
+    try:
+        return Uniform.about(given["spread"]) if "spread" in given else Lognormal(**given)
+    except InputError as error:
+        raise InputError(f"{name}.{error}") from None
+
+
+def _number(name: str, key: str, entry: Mapping[str, Any]) -> float:
+    if isinstance(entry[key], bool | str):
+        raise InputError(f"{name}.{key} must be a number, got {brief(entry[key])}")
+    return number(f"{name}.{key}", entry[key])
 
 
 def _take_spring(spring: str, values: dict[str, Any]) -> CrushSpring:
     """Return a spring of its values, which are removed from `values`."""
-    own = {name: values.pop(f"{spring}.{name}") for name in _SPRING_PARAMETERS}
+    own = {name: values.pop(f"{spring}.{name}") for name in CrushSpring.__dataclass_fields__}
     try:
         return CrushSpring(**own)
     except InputError as error:

@@ -1,13 +1,12 @@
 """The data of the explorers: what they show, computed from one collision."""
 
-from dataclasses import replace
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.collision.simulate import peak_reactions
+from pierimpact.design.band import one_at_a_time
 from pierimpact.design.codes import code_forces
 from pierimpact.design.procedure import LEVELS, amplification, design_values
 from pierimpact.design.reduction import exact_amplification
@@ -17,8 +16,7 @@ from pierimpact.plots.comparison import Bar
 from pierimpact.plots.style import BODIES, GREEN, GREY
 from pierimpact.symbols import BY_KEY
 from pierimpact.teaching.scenario import SPRING, Scenario
-from pierimpact.vehicle.crush import CrushSpring
-from pierimpact.vehicle.truck import Truck
+from pierimpact.vehicle.spread import Uniform
 
 Array = NDArray[np.float64]
 
@@ -113,23 +111,9 @@ def influences(scenario: Scenario) -> dict[str, Array | None]:
         For "engine" and "cargo": the change with the parameter smaller and larger, nan where the
         peak is gone [-]; None where there is no such peak to begin with.
     """
-    truck, pier, factors = scenario.truck, scenario.pier, (1.0 - CHANGE, 1.0 + CHANGE)
-    trucks = [_changed(truck, symbol.key, factor) for symbol in PARAMETERS for factor in factors]
-    changed = peak_reactions(trucks, pier.mass, pier.stiffness, pier.damping_ratio, scenario.speed)
+    spreads = dict.fromkeys([symbol.key for symbol in PARAMETERS], Uniform.about(CHANGE))
+    changed = one_at_a_time(scenario.collision, spreads)
     return {
-        body: None if peak is None else getattr(changed, body).reshape(-1, 2) / peak.reaction - 1.0
+        body: None if peak is None else getattr(changed, body) / peak.reaction - 1.0
         for body, peak in scenario.history.peaks.items()
     }
-
-
-def _changed(truck: Truck, key: str, factor: float) -> Truck:
-    """Return the truck with one value changed, and k_u raised where it would be below k."""
-    spring, _, name = key.rpartition(".")
-    if not spring:
-        return replace(truck, **{name: factor * getattr(truck, name)})
-    law = {field: getattr(getattr(truck, spring), field) for field in SPRING}
-    law[name] *= factor
-    least = max(law["stiffness"], law["plateau_force"] / law["plateau_length"])
-    law["unloading_stiffness"] = max(law["unloading_stiffness"], least)
-    changed: Any = {spring: CrushSpring(**law)}
-    return replace(truck, **changed)

@@ -1,11 +1,20 @@
 """The truck: two masses that strike the pier through two crush springs."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 from pierimpact.checks import InputError, not_negative, one_of, positive
 from pierimpact.vehicle.crush import CrushSpring
+from pierimpact.vehicle.spread import Spread, checked_spreads
 
 FRICTION_ENDS = ("road", "pier")
+SPRINGS = ("engine_spring", "body_spring")
+#: What a truck file gives, and of it what may carry a spread.
+PARAMETERS = (
+    *("engine_mass", "body_mass", "friction_force", "friction_on"),
+    *(f"{spring}.{name}" for spring in SPRINGS for name in CrushSpring.__dataclass_fields__),
+)
+QUANTITIES = tuple(name for name in PARAMETERS if name != "friction_on")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,11 +41,15 @@ class Truck:
         in contact. The source paper does not say; the road is this project's default.
     source : str
         Where the parameters come from.
+    spread : mapping of str to Spread, optional
+        How uncertain parameters are, by names as "engine_spring.stiffness"; the others are known.
+        Trucks that differ in nothing else are equal.
 
     Raises
     ------
     InputError
-        When a mass is not positive, the friction is negative, or `friction_on` is unknown.
+        When a mass is not positive, the friction is negative, `friction_on` is unknown, or a spread
+        is of no parameter or lets it be zero.
     """
 
     name: str
@@ -47,15 +60,17 @@ class Truck:
     friction_force: float = 0.0
     friction_on: str = "road"
     source: str = "not given"
+    spread: Mapping[str, Spread] = field(default_factory=dict, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         rules = {"engine_mass": positive, "body_mass": positive, "friction_force": not_negative}
         for name, rule in rules.items():
             object.__setattr__(self, name, rule(name, getattr(self, name)))
         one_of("friction_on", self.friction_on, FRICTION_ENDS)
-        for name in ("engine_spring", "body_spring"):
+        for name in SPRINGS:
             if not isinstance(getattr(self, name), CrushSpring):
                 raise InputError(f"{name} must be a CrushSpring, got {getattr(self, name)!r}")
+        object.__setattr__(self, "spread", checked_spreads(self.spread, QUANTITIES))
 
     @property
     def mass(self) -> float:
@@ -65,7 +80,8 @@ class Truck:
     def with_mass(self, mass: float) -> "Truck":
         """Return the same truck with more or less cargo.
 
-        Only m2 changes: springs, engine and friction force stay as they are.
+        Only m2 changes: springs, engine and friction force stay as they are. A mass that is stated
+        is known, so that m2 has no spread any more.
 
         Parameters
         ----------
@@ -82,4 +98,5 @@ class Truck:
             raise InputError(
                 f"mass must exceed the engine's {self.engine_mass:g} kg, got {mass:g} kg"
             )
-        return replace(self, body_mass=mass - self.engine_mass)
+        spread = {name: spread for name, spread in self.spread.items() if name != "body_mass"}
+        return replace(self, body_mass=mass - self.engine_mass, spread=spread)
