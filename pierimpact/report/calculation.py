@@ -7,6 +7,7 @@ from typing import NamedTuple
 from pierimpact.collision.averages import AverageForce, largest_average_force
 from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.simulate import simulate
+from pierimpact.design.band import ReactionBand, reaction_band
 from pierimpact.design.codes import CodeForce, code_forces
 from pierimpact.design.reaction import (
     LOW_IMPACT_HEIGHT,
@@ -22,7 +23,7 @@ from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.pier.member_forces import MemberForceHistory, MemberForces
 
 #: Windows of the moving averages that crash tests report [s].
-WINDOWS = (0.010, 0.025)
+WINDOWS = (0.010, 0.025, 0.050)
 
 
 class Demand(NamedTuple):
@@ -122,6 +123,11 @@ class Calculation:
             self.struck.impact_height,
             self.case.inputs.speed,
         )
+
+    @cached_property
+    def band(self) -> ReactionBand:
+        """The reactions that the spread of the truck's parameters makes."""
+        return reaction_band(self.case.truck, self.pier, self.case.inputs.speed)
 
     @property
     def member_forces(self) -> MemberForces:

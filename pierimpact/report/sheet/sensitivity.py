@@ -1,11 +1,13 @@
 """The spectra with this pier, and how the reaction changes with what it depends on."""
 
 from pierimpact.design.sensitivity import MASS_CHANGE, SPEED_CHANGE
+from pierimpact.plots.band import draw_band
 from pierimpact.plots.figures import draw_sensitivity, draw_spectra
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal
 from pierimpact.report.sheet.section import Section
+from pierimpact.symbols import BY_KEY
 from pierimpact.units import rounded
 
 
@@ -54,6 +56,23 @@ class Variations(Section):
             "changes, with the impact height mass and stiffness of the pier.",
             alt=f"Governing reaction against four quantities. By the full model it is {ends}.",
             svg=draw_sensitivity(result.sensitivity, here, forces, self.system),
+        )
+
+    def band(self) -> Block | None:
+        """Return the band of reactions and what moves it; None where the truck has no spread."""
+        band = self.calculation.band
+        if not band.spread:
+            return None
+        low, _, high = (self.shown(value, "force") for value in band.quantiles())
+        name = BY_KEY[next(iter(band.influence))].meaning
+        return Figure(
+            label="fig-band",
+            caption="Reactions by the full model as the truck’s parameters vary within their "
+            "spread: 5 to 95 % of 1000 sampled trucks, and the governing reaction with one "
+            "parameter at a time at either end; with its share of the variance.",
+            alt=f"Nine of ten governing reactions are from {low} to {high}. The {name} moves it "
+            "most.",
+            svg=draw_band(band, self.system),
         )
 
     def table(self) -> Block:

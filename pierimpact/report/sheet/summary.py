@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from pierimpact.design.codes import aashto_lrfd
 from pierimpact.design.domain import Outside
 from pierimpact.files.plausible import unusual
 from pierimpact.report.calculation import Calculation
@@ -17,6 +18,8 @@ from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, printed, rounded, unit_size
 
+#: Window of the average that the force of AASHTO LRFD was taken from [s].
+AVERAGE = 0.025
 #: Static over beam below which the static member forces are called unsafe.
 UNSAFE = 0.95
 #: The member forces that are checked, and what kind of quantity they are.
@@ -75,8 +78,31 @@ class Summary(Section):
                 self.shown(pier.frequency, "frequency"),
                 f"{self.shown(pier.stiffness, 'stiffness')}, {self.shown(pier.mass, 'mass')}",
             ),
+            *self._how_sure(),
         ]
         return Headline(results=results)
+
+    def _how_sure(self) -> list[tuple[str, Printed, str]]:
+        """Return the band of the reaction, what moves it most, and an average to compare."""
+        band, average = self.calculation.band, self.calculation.average_forces[AVERAGE]
+        results = []
+        if band.spread:
+            low, middle, high = band.quantiles()
+            ends = f"{self.number(low, 'force')}–{self.number(high, 'force')}"
+            middle_words = (
+                f"5 to 95 % of trucks of this spread; middle {self.number(middle, 'force')}"
+            )
+            results.append(("Band", Printed(ends, self.unit("force")), middle_words))
+            name, share = next(iter(band.influence.items()))
+            words = f"of its variance: {BY_KEY[name].meaning}, {band.spread[name].words}"
+            results.append(("Moved most by", Printed(rounded(100.0 * share, 2), "%"), words))
+        if average is not None:
+            code = aashto_lrfd()
+            ratio = rounded(average.force / code.along.value, 3)
+            words = f"contact force; {ratio} times that of {code.code}, which is such an average"
+            name = f"Largest {self.shown(AVERAGE, 'time', given=True)} average"
+            results.append((name, self.shown(average.force, "force"), words))
+        return results
 
     def _demand(self, name: str) -> tuple[str, Printed, str]:
         """Return the utilisation where there is a resistance, else the demand."""
@@ -101,8 +127,13 @@ class Summary(Section):
                 else "The engine does not reach the pier before the cargo does: its"
             )
             contacts += " peak is the pier’s response to the crumpling of the truck alone. "
+        known = (
+            "The truck’s parameters carry no spread, as if they were known exactly. "
+            if not self.calculation.band.spread
+            else ""
+        )
         return Paragraph(
-            f"{contacts}The {self.calculation.governs} peak governs. The design reaction is that "
+            f"{contacts}{known}The {self.calculation.governs} peak governs. The design reaction is that "
             "of the design procedure, which can be followed by hand, or the peak of the full model "
             f"if that is larger; here it is that of the {self.calculation.governing_method}. "
             f"The comparison with codes is under this reaction as a static force. {self._members()}"
