@@ -133,8 +133,8 @@ class Summary(Section):
             else ""
         )
         return Paragraph(
-            f"{contacts}{known}The {self.calculation.governs} peak governs. The design reaction is that "
-            "of the design procedure, which can be followed by hand, or the peak of the full model "
+            f"{contacts}{known}The {self.calculation.governs} peak governs. The design reaction is "
+            "that of the design procedure, which can be followed by hand, or the peak of the full model "
             f"if that is larger; here it is that of the {self.calculation.governing_method}. "
             f"The comparison with codes is under this reaction as a static force. {self._members()}"
         )
