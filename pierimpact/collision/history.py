@@ -95,14 +95,18 @@ class CollisionHistory:
     @property
     def engine_peak(self) -> Peak:
         """Largest reaction before cargo contact; of all time where there is none."""
-        return Peak(self.pier.stiffness * self.end.engine_peak, self.end.engine_peak_time)
+        return self._peak(self.end.engine_peak, self.end.engine_peak_time)
 
     @property
     def cargo_peak(self) -> Peak | None:
         """Largest reaction from cargo contact on; None without cargo contact."""
         if self.cargo_contact_time is None:
             return None
-        return Peak(self.pier.stiffness * self.end.cargo_peak, self.end.cargo_peak_time)
+        return self._peak(self.end.cargo_peak, self.end.cargo_peak_time)
+
+    def _peak(self, elastic_displacement: float, time: float) -> Peak:
+        pier = self.pier
+        return Peak(min(pier.stiffness * elastic_displacement, pier.yield_reaction), time)
 
     @property
     def peaks(self) -> dict[str, Peak | None]:
@@ -143,13 +147,13 @@ class CollisionHistory:
     @property
     def residual_displacement(self) -> float:
         """Plastic displacement in the end, when no more of it can come [m]."""
-        return 0.0 if self.end.yielding is None else self.end.yielding.displacement
+        yielding, xp = self.end.yielding, self.end.position.xp
+        return 0.0 if yielding is None else yielding.displacement + yielding.beyond(xp, FLOATS)
 
     @property
     def pier_plastic_energy(self) -> float:
         """Energy that the yielding pier dissipates in all, R_y times its plastic path [J]."""
-        yielding = self.end.yielding
-        return 0.0 if yielding is None else self.pier.yield_reaction * yielding.path
+        return float(self.energy.pier_plastic[-1])
 
     @cached_property
     def time(self) -> Array:
@@ -191,7 +195,7 @@ class CollisionHistory:
     @cached_property
     def reaction(self) -> Array:
         """Reaction R = k_p x_p, x_p without its plastic part, shape (n,) [N]."""
-        return self.pier.stiffness * self._flat(self._elastic_displacement)
+        return self._flat(self._reaction)
 
     @property
     def member_forces(self) -> MemberForceHistory | None:
@@ -370,16 +374,18 @@ class CollisionHistory:
         return self._column(lambda state: 0.0 if state.yielding is None else value(state.yielding))
 
     @cached_property
-    def _elastic_displacement(self) -> Array:
-        """Elastic part R/k_p of x_p, shape (pieces, fractions)."""
-        limit = self.pier.yield_reaction / self.pier.stiffness
-        return np.clip(self._series(PIER), -limit, limit)
+    def _reaction(self) -> Array:
+        """Reaction, shape (pieces, fractions)."""
+        pier = self.pier
+        return np.clip(
+            pier.stiffness * self._series(PIER), -pier.yield_reaction, pier.yield_reaction
+        )
 
     def _plastic_work(self) -> Array:
         if not self.pier.yields:
             return np.zeros_like(self.time)
         before = self._plastic(lambda yielding: yielding.path)
-        going_on = np.abs(self._series(PIER) - self._elastic_displacement)
+        going_on = np.abs(self._series(PIER) - self._reaction / self.pier.stiffness)
         return self.pier.yield_reaction * self._flat(before + going_on)
 
     def _friction_work(self) -> Array:
@@ -391,7 +397,7 @@ class CollisionHistory:
         pier = self.pier
         return (
             0.5 * pier.mass * self.pier_velocity**2,
-            0.5 * pier.stiffness * self._flat(self._elastic_displacement) ** 2,
+            0.5 * self.reaction**2 / pier.stiffness,
         )
 
     def _damping_work(self) -> Array:

@@ -24,7 +24,6 @@ NO_EVENT = -1
 
 NO_BOUND = 1e9  # stands for a bound that is never reached, without the NaN of ∞ − ∞
 PEAK_TOLERANCE = 1e-13  # relative: a later maximum must exceed a peak by this to replace it
-YIELD_PACE = 0.01  # share of B that bounds the step of a pier that yields, where nothing else does
 
 
 class Branch(NamedTuple):
@@ -100,7 +99,7 @@ class LinearMotion(NamedTuple):
     friction: Real
     on_pier: Flag
     yield_force: Real = 0.0
-    pace: Real = 0.0  # square of the least circular frequency that a step is taken for [1/s²]
+    pace: Real = 0.0  # bounds the step of a pier that yields where no stiffness does [1/s²]
 
     def forces(self, position: Position) -> tuple[Real, Real]:
         """Return the forces F1 and F2 of the springs [N]."""
@@ -187,12 +186,14 @@ def linear_motion(parameters: Parameters, state: State, ops: Ops) -> LinearMotio
     )
     if state.yielding is None:
         return motion
-    direction, b = state.yielding.direction, motion.b
-    yields = direction != 0.0
+    direction, yields = state.yielding.direction, state.yielding.direction != 0.0
+    # Ten times as long as it takes to crush the truck at its speed: round-off stays small.
+    length = parameters.engine.plateau_length + parameters.body.plateau_length
+    rate = 0.1 * parameters.speed / length
     return motion._replace(
-        b=where(yields, 0.0, b),
+        b=where(yields, 0.0, motion.b),
         yield_force=direction * state.yielding.limit * parameters.pier_stiffness,
-        pace=where(yields, YIELD_PACE * b, 0.0),
+        pace=where(yields, rate * rate, 0.0),
     )
 
 

@@ -146,8 +146,8 @@ def peak_reactions(
     found = Outcomes(*(outcome.reshape(shape) for outcome in flat))
     stiffness, resistance = (np.asarray(x, dtype=float) for x in (pier_stiffness, yield_reaction))
     return PeakReactions(
-        engine=stiffness * found.engine_peak,
-        cargo=stiffness * found.cargo_peak,
+        engine=np.minimum(stiffness * found.engine_peak, resistance),
+        cargo=np.minimum(stiffness * found.cargo_peak, resistance),
         engine_time=found.engine_peak_time,
         cargo_time=found.cargo_peak_time,
         engine_contact_time=found.engine_contact,

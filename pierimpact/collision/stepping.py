@@ -61,6 +61,7 @@ PIER_EXTREME = 8  # of its displacement: an event, but not a change of regime
 
 TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative to its scale
 HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
+HARDLY = 1e-11  # relative to the largest displacement of the pier
 STEPS = 100_000  # limit; no collision of the studied domain takes a hundredth of it
 
 Rates: TypeAlias = tuple[Real, Real, Real]  # value, first and second rate
@@ -165,12 +166,16 @@ def event_functions(
 
     # The pier begins to yield at either limit, and is elastic again where it turns back.
     if state.yielding is not None:
-        direction, per_limit = state.yielding.direction, 1.0 / state.yielding.limit
-        level = where(direction == 0.0, -1.0 - TOLERANCE, -NO_BOUND)
-        functions.append(EventFunction(YIELDS_FORWARD, 0, ((per_limit, PIER),), level))
-        functions.append(EventFunction(YIELDS_BACKWARD, 0, ((-per_limit, PIER),), level))
-        if some(direction != 0.0):
-            level, back = where(direction != 0.0, -TOLERANCE, -NO_BOUND), -direction * per_speed
+        direction = state.yielding.direction
+        elastic, yields = direction == 0.0, direction != 0.0
+        if some(elastic):
+            per_limit = where(elastic, 1.0 / state.yielding.limit, 0.0)
+            level = per_speed * 0.0 - 1.0 - TOLERANCE
+            functions.append(EventFunction(YIELDS_FORWARD, 0, ((per_limit, PIER),), level))
+            functions.append(EventFunction(YIELDS_BACKWARD, 0, ((-per_limit, PIER),), level))
+        if some(yields):
+            level = where(yields, -TOLERANCE, -NO_BOUND)
+            back = -direction * per_speed
             functions.append(EventFunction(YIELDING_ENDS, 1, ((back, PIER),), level))
     return functions
 
@@ -319,10 +324,11 @@ def prospects(
 
 
 def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
-    """Say whether no later instant can raise a peak or bring a first contact.
+    """Say whether no later instant can raise a peak, bring a first contact or let the pier yield.
 
     Either the energy does not suffice, or the truck has left and the pier has vibrated freely for
-    a whole period.
+    a whole period. A pier that yields comes to rest before, unless the spring of a body that sticks
+    to the road still holds it with just about R_y.
     """
     mass, stiffness, yielding = parameters.pier_mass, parameters.pier_stiffness, state.yielding
     elastic = state.position.xp
@@ -332,8 +338,23 @@ def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
     decided, left = prospects(parameters, state, energy, ops)
     vibrating_mass = mass + ops.where(parameters.on_pier, parameters.body.mass, 0.0)
     period = 2.0 * math.pi * ops.lib.sqrt(vibrating_mass / stiffness)
-    over: Flag = decided | (left & (state.time > state.last_change + period))
-    return over if yielding is None else over & (yielding.direction == 0.0)
+    left = left & (state.time > state.last_change + period)
+    if yielding is not None:
+        elastic = yielding.direction == 0.0
+        decided, left = decided & elastic, left & (elastic | held(parameters, state, yielding))
+    return decided | left
+
+
+def held(parameters: Parameters, state: State, yielding: Yielding) -> Flag:
+    """Say whether a pier that yields hardly moves under the spring of a body at rest.
+
+    About the force R_y of the spring it vibrates with no more than its present amplitude.
+    """
+    line, position = state.body, state.position
+    surplus = line.intercept + line.slope * position.d2
+    surplus = surplus - yielding.direction * yielding.limit * parameters.pier_stiffness
+    square = surplus**2 + line.slope * parameters.pier_mass * position.vp**2
+    return square <= (HARDLY * line.slope * yielding.largest) ** 2
 
 
 def propagate(
@@ -380,7 +401,11 @@ class Outcomes(NamedTuple):
 def outcomes_of(state: State) -> Outcomes:
     """Return what the states of collisions hold of their outcomes."""
     yielding = state.yielding
-    none = 0.0 * state.time
+    largest = displacement = path = 0.0 * state.time
+    if yielding is not None:
+        more = yielding.beyond(state.position.xp, ARRAYS)
+        largest = yielding.largest
+        displacement, path = yielding.displacement + more, yielding.path + abs(more)
     return Outcomes(
         engine_peak=state.engine_peak,
         cargo_peak=state.cargo_peak,
@@ -388,9 +413,9 @@ def outcomes_of(state: State) -> Outcomes:
         cargo_peak_time=state.cargo_peak_time,
         engine_contact=state.engine_contact,
         cargo_contact=state.cargo_contact,
-        largest=none if yielding is None else yielding.largest,
-        displacement=none if yielding is None else yielding.displacement,
-        path=none if yielding is None else yielding.path,
+        largest=largest,
+        displacement=displacement,
+        path=path,
     )
 
 

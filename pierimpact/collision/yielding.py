@@ -20,7 +20,7 @@ class Yielding(NamedTuple):
 
     limit: Real  # R_y/k_p [m]
     direction: Real  # 1 or −1 while it yields, else 0
-    displacement: Real  # plastic displacement, but for yielding that goes on [m]
+    displacement: Real  # plastic displacement, but for what `beyond` has [m]
     path: Real  # the same with all yielding counted positive [m]
     largest: Real  # largest |x_p| so far, measured from where the pier stood at first touch [m]
 
@@ -28,6 +28,10 @@ class Yielding(NamedTuple):
         """Return the elastic part R/k_p of a displacement [m]."""
         where, limit = ops.where, self.limit
         return where(xp > limit, limit, where(xp < -limit, -limit, xp))
+
+    def beyond(self, xp: Real, ops: Ops) -> Real:
+        """Return what of a displacement has become plastic since the pier began to yield [m]."""
+        return ops.where(self.direction != 0.0, xp - self.direction * self.limit, 0.0)
 
     def reach(self, xp: Real, counts: Flag, ops: Ops) -> "Yielding":
         """Return the same once the pier has been at `xp`, where that `counts`."""
@@ -38,14 +42,14 @@ class Yielding(NamedTuple):
         """Return the same after `event` at the displacement `xp`, and the displacement anew."""
         where = ops.where
         ends = event == YIELDING_ENDS
-        elastic = where(ends, self.direction * self.limit, xp)
+        more = where(ends, self.beyond(xp, ops), 0.0)
         new = self._replace(
             direction=where(
                 event == YIELDS_FORWARD,
                 1.0,
                 where(event == YIELDS_BACKWARD, -1.0, where(ends, 0.0, self.direction)),
             ),
-            displacement=self.displacement + (xp - elastic),
-            path=self.path + self.direction * (xp - elastic),
+            displacement=self.displacement + more,
+            path=self.path + abs(more),
         )
-        return new, elastic
+        return new, xp - more
