@@ -385,8 +385,9 @@ class CollisionHistory:
         if not self.pier.yields:
             return np.zeros_like(self.time)
         before = self._plastic(lambda yielding: yielding.path)
+        yields = self._plastic(lambda yielding: yielding.direction)
         going_on = np.abs(self._series(PIER) - self._reaction / self.pier.stiffness)
-        return self.pier.yield_reaction * self._flat(before + going_on)
+        return self.pier.yield_reaction * self._flat(before + np.where(yields, going_on, 0.0))
 
     def _friction_work(self) -> Array:
         path = self._series(BODY) + (0.0 if self._friction_on_pier else self._series(PIER))
