@@ -20,12 +20,16 @@ class InputError(ValueError):
     """A value breaks a rule; the message names the argument, the value and the rule."""
 
 
-def number(name: str, value: SupportsFloat) -> float:
-    """Return `value` as a finite float."""
+def _float(name: str, value: SupportsFloat) -> float:
     try:
-        result = float(value)
+        return float(value)
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name} must be a number, got {value!r}") from None
+
+
+def number(name: str, value: SupportsFloat) -> float:
+    """Return `value` as a finite float."""
+    result = _float(name, value)
     if not math.isfinite(result):
         raise InputError(f"{name} must be finite, got {result}")
     return result
@@ -36,6 +40,14 @@ def positive(name: str, value: SupportsFloat) -> float:
     result = number(name, value)
     if result <= 0.0:
         raise InputError(f"{name} must be positive, got {result:g}")
+    return result
+
+
+def positive_or_infinite(name: str, value: SupportsFloat) -> float:
+    """Return `value` as a float above zero, which may be infinite."""
+    result = _float(name, value)
+    if not result > 0.0:
+        raise InputError(f"{name} must be positive or infinite, got {result:g}")
     return result
 
 
@@ -106,6 +118,13 @@ def positive_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
+def positive_or_infinite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return `values` as an array of numbers above zero or infinite, of any shape."""
+    array = _array(name, values)
+    _refuse(name, array, ~(array > 0.0), "be positive or infinite")
+    return array
+
+
 def ratio_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return `values` as an array of numbers from zero to below one, of any shape."""
     array = _finite_array(name, values)
@@ -113,11 +132,15 @@ def ratio_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
-def _finite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+def _array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     try:
-        array = np.asarray(values, dtype=float)
+        return np.asarray(values, dtype=float)
     except (TypeError, ValueError):
         raise InputError(f"{name} must be an array of numbers, got {values!r:.60}") from None
+
+
+def _finite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    array = _array(name, values)
     _refuse(name, array, ~np.isfinite(array), "be finite")
     return array
 

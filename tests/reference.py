@@ -1,5 +1,7 @@
 """The CMSD model once more, integrated in small steps: what the package is checked against.
 
+The pier may yield.
+
 Nothing is shared with the package but its input objects. Every regime is handed to SciPy's
 `solve_ivp` and left at an event; peaks are the events at which the pier comes to a stand.
 """
@@ -26,6 +28,9 @@ X1, V1, X2, V2, XP, VP, ONE, WORK, IMPULSE = np.eye(9)
 class Solution:
     """Peak reactions [N], peak and contact times [s]; NaN for what does not happen.
 
+    The largest displacement is of either sign, from where the pier stood at first; the plastic
+    displacement and the plastic work are those at the end.
+
     The errors are the largest of the energy and the momentum balance, over the truck's initial
     energy and momentum.
     """
@@ -36,6 +41,9 @@ class Solution:
     cargo_time: float
     engine_contact_time: float
     cargo_contact_time: float
+    largest_displacement: float
+    plastic_displacement: float
+    plastic_work: float
     energy_error: float
     momentum_error: float
     changes: list[tuple[float, str]]
@@ -114,7 +122,7 @@ class Collision:
         self.slip, self.slip_rate = (X2 - XP, V2 - VP) if self.on_pier else (X2, V2)
         self.friction = "forward" if self.c_s else "none"  # or "backward", "stuck"
         self.pier_advances = True
-        self.resistance = pier.stiffness * XP + pier.damping * VP
+        self.yields, self.plastic, self.plastic_work, self.largest = "not", 0.0, 0.0, 0.0
         self.momentum, self.energy = truck.mass * speed, 0.5 * truck.mass * speed**2
         moving = pier.mass + self.on_pier * truck.body_mass
         self.period = 2 * math.pi * math.sqrt(moving / pier.stiffness)
@@ -124,6 +132,17 @@ class Collision:
         self.peaks = [(0.0, 0.0), (-math.inf, math.nan)]  # reaction and its time: engine, cargo
         self.errors = np.zeros(2)
         self.changes: list[tuple[float, str]] = []
+
+    def pier_spring(self) -> Row:
+        """Force of the pier's spring [N]."""
+        if self.yields == "not":
+            return self.pier.stiffness * (XP - self.plastic * ONE)
+        return self.pier.yield_reaction * (1 if self.yields == "forward" else -1) * ONE
+
+    @property
+    def resistance(self) -> Row:
+        """Force of the pier's spring and damper [N]."""
+        return self.pier_spring() + self.pier.damping * VP
 
     def hold(self) -> Row:
         """Friction that keeps m2 at the velocity of the road, or of the pier [N]."""
@@ -157,8 +176,13 @@ class Collision:
             slips = [(self.slip_rate, -1 if self.friction == "forward" else 1, "stop")]
             if self.on_pier:  # crushing and sliding end together: one event, not two
                 body = [way for way in body if way[0] is not self.body.rate]
+        limit, yields = self.pier.yield_reaction, []
+        if self.yields == "not" and math.isfinite(limit):
+            for sign, way in ((1, "forward"), (-1, "backward")):
+                yields.append((self.pier_spring() - sign * limit * ONE, sign, way, "yielding"))
         return [
             (VP, -1 if self.pier_advances else 1, "turn", "pier"),
+            *yields,
             *((*way, "engine") for way in self.engine.exits()),
             *((*way, "body") for way in body),
             *((*way, "friction") for way in slips),
@@ -203,7 +227,10 @@ class Collision:
             self.rubbed += self.c_s * abs(self.slip @ (self.y - start))
 
         phase, top = 0 if math.isnan(self.body.hit) else 1, np.argmax(run.y[4])
-        reaction, peak = float(self.pier.stiffness * run.y[4, top]), self.peaks[phase][0]
+        # While the pier yields the reaction is the same throughout.
+        top = 0 if self.yields != "not" else top
+        reaction, peak = float(self.pier_spring() @ run.y[:, top]), self.peaks[phase][0]
+        self.largest = max(self.largest, np.abs(run.y[4]).max())
         if reaction > peak:  # an undamped pier swings as far again, but for rounding
             first = reaction > peak * (1 + 1e-11)
             self.peaks[phase] = (reaction, float(run.t[top]) if first else self.peaks[phase][1])
@@ -215,9 +242,13 @@ class Collision:
         """Enter the next regime."""
         if whose == "pier":
             self.pier_advances = not self.pier_advances
+            if self.yields != "not":
+                self.end_yielding()
             return
         self.changes.append((self.time, f"{whose} {after}"))
-        if whose == "engine":
+        if whose == "yielding":
+            self.yields = after
+        elif whose == "engine":
             self.engine.enter(after, self.time)
         elif whose == "body":
             if self.on_pier and self.c_s and "apart" in (self.body.branch, after):
@@ -240,10 +271,27 @@ class Collision:
         if whose != "body" or after not in ("line", "apart"):
             self.quiet_since = self.time
 
+    def newly_plastic(self) -> float:
+        """What has become plastic since the pier began to yield [m]."""
+        if self.yields == "not":
+            return 0.0
+        elastic = float(self.pier_spring() @ self.y) / self.pier.stiffness
+        return float(XP @ self.y) - self.plastic - elastic
+
+    def end_yielding(self) -> None:
+        """Keep what has become plastic."""
+        more = self.newly_plastic()
+        self.plastic_work += abs(more) * self.pier.yield_reaction
+        self.plastic, self.yields, self.quiet_since = self.plastic + more, "not", self.time
+
+    def pier_strain_energy(self) -> float:
+        """Energy in the pier's spring [J]."""
+        return float(0.5 * (self.pier_spring() @ self.y) ** 2 / self.pier.stiffness)
+
     def available(self) -> float:
         """Energy that can still reach the pier, or an upper bound of it [J]."""
-        _, v1, _, v2, x_p, v_p = self.y[:6]
-        energy = 0.5 * self.pier.stiffness * x_p**2 + 0.5 * self.pier.mass * v_p**2
+        _, v1, _, v2, _, v_p = self.y[:6]
+        energy = self.pier_strain_energy() + 0.5 * self.pier.mass * v_p**2
         energy += self.engine.energies(self.y)[0] + self.body.energies(self.y)[0]
         # Contact pushes only backward: a mass that moves so keeps what it has.
         energy += 0.5 * self.truck.engine_mass * max(v1, 0.0) ** 2
@@ -252,16 +300,19 @@ class Collision:
 
     def over(self) -> bool:
         """Whether no contact and no higher peak can come any more."""
-        available = self.available()
+        if self.yields != "not":
+            return False
+        available, limit = self.available(), self.pier.yield_reaction
         decided = all(
             not math.isnan(s.hit) or available < s.P * (s.d - s.largest)
             for s in (self.engine, self.body)
         )
         peak = self.peaks[0 if math.isnan(self.body.hit) else 1][0]
-        if decided and math.sqrt(2 * available * self.pier.stiffness) <= peak:
+        reach = math.sqrt(2 * available * self.pier.stiffness)
+        if decided and reach <= (peak if peak < limit * (1 - 1e-11) else limit):
             return True
         # Else: the pier rings alone, or with m2 held in place, and each swing repeats the last.
-        reach = math.sqrt(2 * available / self.pier.stiffness)
+        reach = abs(self.plastic) + math.sqrt(2 * available / self.pier.stiffness)
         engine, body = (
             s.branch == "apart" and v @ self.y <= 0 and (s.empty() + XP) @ self.y + reach < 0
             for s, v in ((self.engine, V1), (self.body, V2))
@@ -273,8 +324,11 @@ class Collision:
     def balance(self) -> None:
         """Keep the largest errors of energy and momentum."""
         m1, m2, m_p = self.truck.engine_mass, self.truck.body_mass, self.pier.mass
-        _, v1, _, v2, x_p, v_p, _, work, impulse = self.y
-        energy = 0.5 * (m1 * v1**2 + m2 * v2**2 + m_p * v_p**2 + self.pier.stiffness * x_p**2)
+        _, v1, _, v2, _, v_p, _, work, impulse = self.y
+        energy = 0.5 * (m1 * v1**2 + m2 * v2**2 + m_p * v_p**2) + self.pier_strain_energy()
+        energy += self.plastic_work
+        if self.yields != "not":
+            energy += self.pier.yield_reaction * abs(self.newly_plastic())
         energy += work + self.rubbed + sum(self.engine.energies(self.y))
         energy += sum(self.body.energies(self.y))
         momentum = m1 * v1 + m2 * v2 + m_p * v_p + impulse
@@ -312,6 +366,9 @@ def solve(truck: Truck, pier: EquivalentPier, speed: float, rtol: float = 1e-12)
         cargo_time=cargo_time,
         engine_contact_time=collision.engine.hit,
         cargo_contact_time=collision.body.hit,
+        largest_displacement=collision.largest,
+        plastic_displacement=collision.plastic,
+        plastic_work=collision.plastic_work,
         energy_error=float(collision.errors[0]),
         momentum_error=float(collision.errors[1]),
         changes=collision.changes,

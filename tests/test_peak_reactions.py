@@ -135,16 +135,21 @@ def test_any_kind_of_sequence_will_do():
         ),
         ({"speed": [22.0, math.inf]}, "speed must be finite, got inf at index 1"),
         ({"speed": -22.0}, "speed must be positive, got -22"),
+        (
+            {"yield_reaction": [2e6, -1.0]},
+            "yield_reaction must be positive or infinite, got -1 at index 1",
+        ),
+        ({"yield_reaction": math.nan}, "yield_reaction must be positive or infinite, got nan"),
         ({"speed": "fast"}, "speed must be an array of numbers, got 'fast'"),
         (
             {"pier_mass": [8e3] * 2, "speed": [22.0] * 3},
             r"shapes must broadcast against each other, got truck \(\), pier_mass \(2,\), "
-            r"pier_stiffness \(\), damping_ratio \(\), speed \(3,\)",
+            r"pier_stiffness \(\), damping_ratio \(\), speed \(3,\), yield_reaction \(\)",
         ),
         (
             {"truck": [TRUCK] * 2, "speed": [22.0] * 3},
             r"shapes must broadcast against each other, got truck \(2,\), pier_mass \(\), "
-            r"pier_stiffness \(\), damping_ratio \(\), speed \(3,\)",
+            r"pier_stiffness \(\), damping_ratio \(\), speed \(3,\), yield_reaction \(\)",
         ),
     ],
 )

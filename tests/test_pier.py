@@ -45,7 +45,7 @@ def test_damping_ratio_by_default():
 
 def test_values_become_floats_and_stay():
     pier = EquivalentPier(mass=np.int64(8000), stiffness=np.float32(284e6), damping_ratio=0)
-    assert [type(value) for value in dataclasses.astuple(pier)] == [float, float, float]
+    assert [type(value) for value in dataclasses.astuple(pier)] == [float] * 4
     with pytest.raises(dataclasses.FrozenInstanceError):
         pier.mass = 1.0
 
@@ -59,6 +59,9 @@ def test_values_become_floats_and_stay():
         ({"stiffness": math.inf}, "stiffness must be finite, got inf"),
         ({"damping_ratio": -0.01}, r"damping_ratio must not be negative, got -0\.01"),
         ({"damping_ratio": 1.0}, "damping_ratio must be below 1, got 1"),
+        ({"yield_reaction": 0.0}, "yield_reaction must be positive or infinite, got 0"),
+        ({"yield_reaction": math.nan}, "yield_reaction must be positive or infinite, got nan"),
+        ({"yield_reaction": "strong"}, "yield_reaction must be a number, got 'strong'"),
     ],
 )
 def test_bad_values_are_named(changes, message):

@@ -1,5 +1,7 @@
 """What the drawing functions put on the axes is what they were given."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
@@ -19,6 +21,7 @@ from pierimpact import (
     RegularPolygonSection,
     load_truck,
     reaction_band,
+    simulate,
 )
 from pierimpact.design.sensitivity import sensitivity
 from pierimpact.plots import (
@@ -113,6 +116,17 @@ def test_the_shares_of_energy_fill_the_picture(speed):
     assert tops == sorted(tops)
     assert tops[-1] == pytest.approx(100.0, abs=1e-6)
     assert axes.get_xlim() == (0.0, pytest.approx(1e3 * history.time[-1]))
+
+
+def test_the_energy_of_a_pier_that_yields_is_one_more_share():
+    pier = dataclasses.replace(Scenario().pier, yield_reaction=1e6)
+    history = simulate(Scenario().truck, pier, Scenario().speed)
+    axes = collision.energy_panel(Figure(figsize=(4, 3)))
+    collision.draw_energy(axes, history)
+    tops = [area.get_paths()[0].vertices[:, 1].max() for area in axes.collections]
+    assert len(tops) == 7
+    assert tops[-1] == pytest.approx(100.0, abs=1e-6)
+    assert [text.get_text() for text in axes.get_legend().get_texts()][-1] == "yielding"
 
 
 @pytest.mark.parametrize("body", BODIES)

@@ -2,7 +2,8 @@
 
 On a plateau or out of contact the forces do not depend on the motion, so that engine and body move
 on parabolas and the pier vibrates freely. A stiff pier then goes through many cycles before
-anything changes; one step covers them all and ends safely before the first possible change.
+anything changes; one step covers them all and ends safely before the first possible change. A pier
+that yields, or may yield on its next swing, does not coast.
 """
 
 import math
@@ -18,6 +19,7 @@ from pierimpact.collision.regimes import (
     raise_peak,
 )
 from pierimpact.collision.series import PHASE, Flag, Ops, Real
+from pierimpact.collision.yielding import ROUND_OFF
 
 SAFETY = 0.999  # share of the time to the earliest change, which round-off must not pass
 
@@ -47,6 +49,10 @@ class FreeVibration(NamedTuple):
     def first_maximum(self, ops: Ops) -> Real:
         """Return the time of the first maximum; no later one is higher."""
         return (0.5 * math.pi - ops.lib.atan2(self.s, self.v)) % (2.0 * math.pi) / self.omega
+
+    def first_minimum(self, ops: Ops) -> Real:
+        """Return the time of the first minimum; no later one is lower."""
+        return (1.5 * math.pi - ops.lib.atan2(self.s, self.v)) % (2.0 * math.pi) / self.omega
 
 
 def free_vibration(motion: LinearMotion, position: Position, ops: Ops) -> FreeVibration:
@@ -126,16 +132,28 @@ def coast(
     )
     if not some(constant):
         return state, 0.0
+    yielding = state.yielding
+    if yielding is not None:
+        b = motion.inverse_mp * parameters.pier_stiffness
+        motion = motion._replace(b=b, yield_force=0.0)
     vibration = free_vibration(motion, state.position, ops)
     bound = time_without_change(parameters, state, motion, vibration, ops)
     # Where nothing ever changes, one period brings the highest peak.
     h = where(bound < NO_BOUND, SAFETY * bound, 1.01 * 2.0 * math.pi / vibration.omega)
     worthwhile = constant & (h * vibration.omega > PHASE)
+    if yielding is not None:
+        farthest = abs(vibration.static) + ops.lib.hypot(vibration.y, vibration.q)
+        elastic = (yielding.direction == 0.0) & (farthest <= yielding.limit * (1.0 + ROUND_OFF))
+        worthwhile = worthwhile & elastic
     if not some(worthwhile):
         return state, 0.0
     h = where(worthwhile, h, 0.0)
-    first = vibration.first_maximum(ops)
-    state = raise_peak(state, vibration.after(first, ops)[0], state.time + first, first < h, ops)
+    extremes = [vibration.first_maximum(ops)]
+    if yielding is not None:
+        extremes.append(vibration.first_minimum(ops))
+    time = state.time
+    for t in extremes:
+        state = raise_peak(state, vibration.after(t, ops)[0], time + t, t < h, ops)
     end = coasting_position(motion, state.position, vibration, h, ops)
     end = Position(*map(where, [worthwhile] * len(end), end, state.position))
     state = state._replace(time=state.time + h, position=end)

@@ -31,9 +31,11 @@ def join(first: T, second: T) -> T:
 
 
 def _with_each(change: Callable[..., Any], *groups: T) -> T:
-    """Return the structure with a change made to each array and its counterparts."""
-    changed = [
-        _with_each(change, *items) if isinstance(items[0], tuple) else change(*items)
-        for items in zip(*groups, strict=True)
-    ]
-    return type(groups[0])(*changed)
+    """Return the structure with a change made to each array and its counterparts, not to None."""
+
+    def changed(*items: Any) -> Any:
+        if isinstance(items[0], tuple):
+            return _with_each(change, *items)
+        return None if items[0] is None else change(*items)
+
+    return type(groups[0])(*map(changed, *groups))

@@ -14,6 +14,7 @@ from pierimpact.collision.parameters import Collision
 from pierimpact.collision.regimes import LinearMotion, Position, State
 from pierimpact.collision.series import ARRAYS, FLOATS, TERMS
 from pierimpact.collision.stepping import BODY, ENGINE, PIER, expand, longest_step, rates
+from pierimpact.collision.yielding import Yielding
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.pier.member_forces import MemberForceHistory
 from pierimpact.vehicle.truck import Truck
@@ -62,6 +63,7 @@ class EnergyShares(NamedTuple):
     crush: Array  #: dissipated by plastic crush
     friction: Array  #: dissipated by the friction on the body
     damping: Array  #: dissipated by the pier's damper
+    pier_plastic: Array  #: dissipated by the yielding pier
 
     @property
     def total(self) -> Array:
@@ -93,14 +95,18 @@ class CollisionHistory:
     @property
     def engine_peak(self) -> Peak:
         """Largest reaction before cargo contact; of all time where there is none."""
-        return Peak(self.pier.stiffness * self.end.engine_peak, self.end.engine_peak_time)
+        return self._peak(self.end.engine_peak, self.end.engine_peak_time)
 
     @property
     def cargo_peak(self) -> Peak | None:
         """Largest reaction from cargo contact on; None without cargo contact."""
         if self.cargo_contact_time is None:
             return None
-        return Peak(self.pier.stiffness * self.end.cargo_peak, self.end.cargo_peak_time)
+        return self._peak(self.end.cargo_peak, self.end.cargo_peak_time)
+
+    def _peak(self, elastic_displacement: float, time: float) -> Peak:
+        pier = self.pier
+        return Peak(min(pier.stiffness * elastic_displacement, pier.yield_reaction), time)
 
     @property
     def peaks(self) -> dict[str, Peak | None]:
@@ -128,6 +134,27 @@ class CollisionHistory:
         """When the cargo meets the pier: δ2 first reaches d2 [s]; None if it never does."""
         return _known(self.end.cargo_contact)
 
+    @property
+    def ductility(self) -> float:
+        """Ductility demand: the largest |x_p| over R_y/k_p; zero where R_y is infinite [-].
+
+        The displacement is measured from where the pier stood at first touch, in either direction.
+        Up to 1 the pier stays elastic.
+        """
+        yielding = self.end.yielding
+        return 0.0 if yielding is None else yielding.largest / yielding.limit
+
+    @property
+    def residual_displacement(self) -> float:
+        """Plastic displacement in the end, when no more of it can come [m]."""
+        yielding, xp = self.end.yielding, self.end.position.xp
+        return 0.0 if yielding is None else yielding.displacement + yielding.beyond(xp, FLOATS)
+
+    @property
+    def pier_plastic_energy(self) -> float:
+        """Energy that the yielding pier dissipates in all, R_y times its plastic path [J]."""
+        return float(self.energy.pier_plastic[-1])
+
     @cached_property
     def time(self) -> Array:
         """Time after first touch, shape (n,) [s]."""
@@ -137,7 +164,8 @@ class CollisionHistory:
     @cached_property
     def pier_displacement(self) -> Array:
         """Displacement x_p of the pier at the nominal impact height, shape (n,) [m]."""
-        return self._flat(self._series(PIER))
+        plastic = self._plastic(lambda yielding: yielding.displacement)
+        return self._flat(plastic + self._series(PIER))
 
     @cached_property
     def pier_velocity(self) -> Array:
@@ -166,8 +194,8 @@ class CollisionHistory:
 
     @cached_property
     def reaction(self) -> Array:
-        """Reaction R = k_p x_p, shape (n,) [N]."""
-        return self.pier.stiffness * self.pier_displacement
+        """Reaction R = k_p x_p, x_p without its plastic part, shape (n,) [N]."""
+        return self._flat(self._reaction)
 
     @property
     def member_forces(self) -> MemberForceHistory | None:
@@ -203,13 +231,17 @@ class CollisionHistory:
     def impulse(self) -> Array:
         """Impulse of the truck on the pier since first touch, ∫ F dt, shape (n,) [N s].
 
-        From the pier's motion: m_p x_p' + c_p x_p + k_p ∫ x_p dt.
+        From the pier's motion: m_p x_p' + c_p x_p + ∫ R dt.
         """
-        pier = self.pier
+        pier, direction = self.pier, self._plastic(lambda yielding: yielding.direction)
+        elastic = self._series(PIER, order=-1)
+        if pier.yields:
+            limit = direction * pier.yield_reaction / pier.stiffness
+            elastic = np.where(direction, limit * self._lengths * self._fractions, elastic)
         return (
             pier.mass * self.pier_velocity
             + pier.damping * self.pier_displacement
-            + pier.stiffness * self._accumulate(self._series(PIER, order=-1))
+            + pier.stiffness * self._accumulate(elastic)
         )
 
     @cached_property
@@ -234,6 +266,7 @@ class CollisionHistory:
             + truck.body_spring.dissipated(self._largest_crush(BODY)),
             friction=self._friction_work(),
             damping=self._damping_work(),
+            pier_plastic=self._plastic_work(),
         )
 
     @cached_property
@@ -336,6 +369,26 @@ class CollisionHistory:
         # Below the elastic limit nothing is dissipated, and no largest crush is recorded yet.
         return self._flat(np.maximum(largest, springs[which].elastic_limit))
 
+    def _plastic(self, value: Callable[[Yielding], float]) -> Array:
+        """Return one value of the pier's yielding per piece, shape (pieces, 1); else zeros."""
+        return self._column(lambda state: 0.0 if state.yielding is None else value(state.yielding))
+
+    @cached_property
+    def _reaction(self) -> Array:
+        """Reaction, shape (pieces, fractions)."""
+        pier = self.pier
+        return np.clip(
+            pier.stiffness * self._series(PIER), -pier.yield_reaction, pier.yield_reaction
+        )
+
+    def _plastic_work(self) -> Array:
+        if not self.pier.yields:
+            return np.zeros_like(self.time)
+        before = self._plastic(lambda yielding: yielding.path)
+        yields = self._plastic(lambda yielding: yielding.direction)
+        going_on = np.abs(self._series(PIER) - self._reaction / self.pier.stiffness)
+        return self.pier.yield_reaction * self._flat(before + np.where(yields, going_on, 0.0))
+
     def _friction_work(self) -> Array:
         path = self._series(BODY) + (0.0 if self._friction_on_pier else self._series(PIER))
         return self._accumulate(self._motion.friction * (path - path[:, :1]))
@@ -345,7 +398,7 @@ class CollisionHistory:
         pier = self.pier
         return (
             0.5 * pier.mass * self.pier_velocity**2,
-            0.5 * pier.stiffness * self.pier_displacement**2,
+            0.5 * self.reaction**2 / pier.stiffness,
         )
 
     def _damping_work(self) -> Array:

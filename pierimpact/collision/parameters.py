@@ -4,6 +4,7 @@ In `Parameters` and `Spring` each number is a float for one collision, or an arr
 for n collisions side by side.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,7 +14,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pierimpact.checks import InputError, positive, positive_array, ratio_array
+from pierimpact.checks import (
+    InputError,
+    positive,
+    positive_array,
+    positive_or_infinite_array,
+    ratio_array,
+)
 from pierimpact.collision.groups import CHUNK, select
 from pierimpact.collision.series import Flag, Real
 from pierimpact.pier.beam import BeamPier
@@ -43,6 +50,7 @@ class Parameters(NamedTuple):
     pier_stiffness: Real
     pier_damping: Real
     speed: Real
+    yield_reaction: Real | None = None  # None where no pier can yield
 
 
 @dataclass(frozen=True)
@@ -61,7 +69,7 @@ class Collision:
     Raises
     ------
     InputError
-        When truck or pier is of another type, or the speed is not positive.
+        When truck or pier is of another type, a beam is to yield, or the speed is not positive.
     """
 
     truck: Truck
@@ -74,6 +82,11 @@ class Collision:
         if not isinstance(self.pier, EquivalentPier | BeamPier):
             raise InputError(
                 f"pier must be an EquivalentPier or a BeamPier, got {type(self.pier).__name__}"
+            )
+        if isinstance(self.pier, BeamPier) and self.pier.equivalent.yields:
+            raise InputError(
+                f"pier must be an EquivalentPier where it yields, for a BeamPier is elastic, got a "
+                f"BeamPier with yield_reaction {self.pier.equivalent.yield_reaction:g} N"
             )
         object.__setattr__(self, "speed", positive("speed", self.speed))
 
@@ -91,7 +104,8 @@ class Collision:
     def parameters(self) -> Parameters:
         """The same as floats, the pier as one degree of freedom."""
         pier = self.equivalent_pier
-        return _parameters(_row(self.truck), pier.mass, pier.stiffness, pier.damping, self.speed)
+        numbers = pier.mass, pier.stiffness, pier.damping, self.speed
+        return _parameters(_row(self.truck), *numbers, pier.yield_reaction if pier.yields else None)
 
 
 def parameter_chunks(
@@ -100,6 +114,7 @@ def parameter_chunks(
     pier_stiffness: ArrayLike,
     damping_ratio: ArrayLike,
     speed: ArrayLike,
+    yield_reaction: ArrayLike = math.inf,
 ) -> tuple[tuple[int, ...], Iterator[tuple[slice, Parameters]]]:
     """Return the shape to which all broadcast, and the parameters of its flat order in chunks.
 
@@ -117,7 +132,9 @@ def parameter_chunks(
         "pier_stiffness": positive_array("pier_stiffness", pier_stiffness),
         "damping_ratio": ratio_array("damping_ratio", damping_ratio),
         "speed": positive_array("speed", speed),
+        "yield_reaction": positive_or_infinite_array("yield_reaction", yield_reaction),
     }
+    yields = bool(np.isfinite(inputs["yield_reaction"]).any())
     which = np.arange(len(trucks)) if many else np.zeros((), dtype=int)
     try:
         which, *arrays = np.broadcast_arrays(which, *inputs.values())
@@ -131,9 +148,9 @@ def parameter_chunks(
     def chunks() -> Iterator[tuple[slice, Parameters]]:
         for first in range(0, which.size, CHUNK):
             part = slice(first, first + CHUNK)
-            row, mass, stiffness, ratio, velocity = (array[part] for array in flat)
-            damping = damping_coefficient(mass, stiffness, ratio)
-            yield part, _parameters(table[:, row], mass, stiffness, damping, velocity)
+            row, mass, stiffness, ratio, velocity, resistance = (array[part] for array in flat)
+            numbers = mass, stiffness, damping_coefficient(mass, stiffness, ratio), velocity
+            yield part, _parameters(table[:, row], *numbers, resistance if yields else None)
 
     return which.shape, chunks()
 
@@ -158,7 +175,7 @@ def _spring(mass: float, spring: CrushSpring) -> Spring:
     return Spring(mass, *attrgetter(*Spring._fields[1:])(spring))
 
 
-def _parameters(truck: Any, *pier_and_speed: Real) -> Parameters:
+def _parameters(truck: Any, *pier_and_speed: Real | None) -> Parameters:
     """Return parameters from the numbers of a truck, or of many side by side."""
     engine, body, friction_force, on_pier = truck[:5], truck[5:10], truck[10], truck[11] > 0.0
     return Parameters(Spring(*engine), Spring(*body), friction_force, on_pier, *pier_and_speed)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from pierimpact.collision.parameters import Parameters, Spring
 from pierimpact.collision.series import Flag, Ops, Real
+from pierimpact.collision.yielding import Yielding
 
 FREE, ELASTIC, PLATEAU, STEEP = range(4)
 
@@ -37,7 +38,10 @@ class Branch(NamedTuple):
 
 
 class Position(NamedTuple):
-    """Crushes, pier displacement and their rates."""
+    """Crushes, pier displacement and their rates.
+
+    The displacement is from where the pier's spring is unstressed (`yielding`).
+    """
 
     d1: Real
     u1: Real
@@ -59,13 +63,14 @@ class State(NamedTuple):
     last_change: Real  # time of the last change of regime
     engine_contact: Real  # time of the first contact; nan before it
     cargo_contact: Real
-    engine_peak: Real  # largest x_p before cargo contact
+    engine_peak: Real  # largest R/k_p before cargo contact
     engine_peak_time: Real
-    cargo_peak: Real  # largest x_p from cargo contact on
+    cargo_peak: Real  # largest R/k_p from cargo contact on
     cargo_peak_time: Real
+    yielding: Yielding | None = None  # None where no pier can yield
 
     def peak(self, ops: Ops) -> Real:
-        """Return the largest x_p so far, of those before or those from cargo contact on."""
+        """Return the largest R/k_p so far, of those before or those from cargo contact on."""
         contact = self.cargo_contact
         return ops.where(contact == contact, self.cargo_peak, self.engine_peak)
 
@@ -73,12 +78,12 @@ class State(NamedTuple):
 class LinearMotion(NamedTuple):
     """The linear equations of motion of one regime.
 
-    x_p'' = (F1 + γ F2 + on_pier F_f)/m_p − B x_p − C x_p', with B = k_p/m_p and C = c_p/m_p
+    x_p'' = (F1 + γ F2 + on_pier F_f − Y)/m_p − B x_p − C x_p', with B = k_p/m_p and C = c_p/m_p
     δ1'' = −F1/m1 − x_p''
     δ2'' = −(F2 + F_f)/m2 − γ x_p''
 
     Where the body sticks, 1/m2 = 0; where it sticks to the pier, both move as one mass, γ = 0
-    and m_p includes m2.
+    and m_p includes m2. Where the pier yields, Y = ±R_y and B = 0; else Y = 0.
     """
 
     inverse_m1: Real
@@ -93,6 +98,8 @@ class LinearMotion(NamedTuple):
     intercept2: Real
     friction: Real
     on_pier: Flag
+    yield_force: Real = 0.0
+    pace: Real = 0.0  # bounds the step of a pier that yields where no stiffness does [1/s²]
 
     def forces(self, position: Position) -> tuple[Real, Real]:
         """Return the forces F1 and F2 of the springs [N]."""
@@ -126,6 +133,11 @@ def start(parameters: Parameters, ops: Ops) -> State:
     """Return the state at first touch: both springs at rest, both bodies at full speed."""
     zero = 0.0 * parameters.speed
     unknown = zero + math.nan
+    yielding: Yielding | None = None
+    if parameters.yield_reaction is not None:
+        limit = parameters.yield_reaction / parameters.pier_stiffness
+        limit = ops.where(limit < NO_BOUND, limit, NO_BOUND)
+        yielding = Yielding(limit, zero, zero, zero, zero)
     first = ELASTIC + zero
     return State(
         time=zero,
@@ -141,6 +153,7 @@ def start(parameters: Parameters, ops: Ops) -> State:
         engine_peak_time=zero,
         cargo_peak=unknown,
         cargo_peak_time=unknown,
+        yielding=yielding,
     )
 
 
@@ -157,7 +170,7 @@ def linear_motion(parameters: Parameters, state: State, ops: Ops) -> LinearMotio
         1.0 / (parameters.pier_mass + parameters.body.mass),
         1.0 / parameters.pier_mass,
     )
-    return LinearMotion(
+    motion = LinearMotion(
         inverse_m1=1.0 / parameters.engine.mass,
         inverse_m2=where(state.stuck, 0.0, 1.0 / parameters.body.mass),
         inverse_mp=inverse_mp,
@@ -171,20 +184,37 @@ def linear_motion(parameters: Parameters, state: State, ops: Ops) -> LinearMotio
         friction=state.slip * parameters.friction_force,
         on_pier=parameters.on_pier,
     )
+    if state.yielding is None:
+        return motion
+    direction, yields = state.yielding.direction, state.yielding.direction != 0.0
+    # Ten times as long as it takes to crush the truck at its speed: round-off stays small.
+    length = parameters.engine.plateau_length + parameters.body.plateau_length
+    rate = 0.1 * parameters.speed / length
+    return motion._replace(
+        b=where(yields, 0.0, motion.b),
+        yield_force=direction * state.yielding.limit * parameters.pier_stiffness,
+        pace=where(yields, rate * rate, 0.0),
+    )
 
 
 def accelerations(motion: LinearMotion, position: Position) -> tuple[Real, Real, Real]:
     """Return δ1'', δ2'' and x_p'' [m/s²]."""
     F1, F2 = motion.forces(position)
     Fs, gamma = motion.friction, motion.gamma
-    contact_force = F1 + gamma * F2 + motion.on_pier * Fs
-    ap = motion.inverse_mp * contact_force - motion.b * position.xp - motion.c * position.vp
+    force = F1 + gamma * F2 + motion.on_pier * Fs - motion.yield_force
+    ap = motion.inverse_mp * force - motion.b * position.xp - motion.c * position.vp
     return -motion.inverse_m1 * F1 - ap, -motion.inverse_m2 * (F2 + Fs) - gamma * ap, ap
 
 
 def raise_peak(state: State, xp: Real, time: Real, counts: Flag, ops: Ops) -> State:
-    """Return the state with its present peak raised to `xp` where that `counts` and is higher."""
-    where = ops.where
+    """Return the state with its present peak raised to `xp` where that `counts` and is higher.
+
+    So is the largest displacement of a pier that can yield; `xp` may be its lowest one too.
+    """
+    where, yielding = ops.where, state.yielding
+    if yielding is not None:
+        state = state._replace(yielding=yielding.reach(xp, counts, ops))
+        xp = yielding.elastic_part(xp, ops)
     counts = counts & (xp > state.peak(ops) + PEAK_TOLERANCE * abs(xp))
     if not ops.some(counts):
         return state
@@ -218,10 +248,14 @@ def change_regime(
     engine = next_branch(parameters.engine, state.engine, event, position.d1, ops)
     body = next_branch(parameters.body, state.body, event - 3, position.d2, ops)
     slip, stuck, u2 = update_friction(parameters, motion, resistance, state, body, event, ops)
+    yielding, elastic, xp = state.yielding, position.xp, position.xp
+    if yielding is not None:
+        elastic = yielding.elastic_part(xp, ops)
+        yielding, xp = yielding.after(event, xp, ops)
     meets_engine = (engine.regime == STEEP) & (state.engine_contact != state.engine_contact)
     meets_cargo = (body.regime == STEEP) & (state.cargo_contact != state.cargo_contact)
     return state._replace(
-        position=position._replace(u2=u2),
+        position=position._replace(u2=u2, xp=xp),
         engine=engine,
         body=body,
         slip=slip,
@@ -229,8 +263,9 @@ def change_regime(
         last_change=where(changes, time, state.last_change),
         engine_contact=where(meets_engine, time, state.engine_contact),
         cargo_contact=where(meets_cargo, time, state.cargo_contact),
-        cargo_peak=where(meets_cargo, position.xp, state.cargo_peak),
+        cargo_peak=where(meets_cargo, elastic, state.cargo_peak),
         cargo_peak_time=where(meets_cargo, time, state.cargo_peak_time),
+        yielding=yielding,
     )
 
 

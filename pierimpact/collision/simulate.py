@@ -13,7 +13,7 @@ from pierimpact.collision.beam_history import BeamCollisionHistory
 from pierimpact.collision.history import CollisionHistory, RecordedStep
 from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.collision.regimes import LinearMotion, State
-from pierimpact.collision.stepping import propagate, propagate_all
+from pierimpact.collision.stepping import Outcomes, propagate, propagate_all
 from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
@@ -32,8 +32,8 @@ def simulate(
         As in `Collision`.
     duration : float, optional
         Time that the history covers at least [s]. It always goes on until no later instant can
-        raise a peak or bring a first contact, and a beam has vibrated for a period of its first
-        mode since the last change.
+        raise a peak, bring a first contact or let the pier yield, and a beam has vibrated for a
+        period of its first mode since the last change.
 
     Returns
     -------
@@ -88,6 +88,9 @@ class PeakReactions(NamedTuple):
     cargo_time: NDArray[np.float64]
     engine_contact_time: NDArray[np.float64]  #: when engine and cargo first meet the pier; nan
     cargo_contact_time: NDArray[np.float64]  #: where they do not [s]
+    ductility: NDArray[np.float64]  #: largest |x_p| over R_y/k_p; zero where R_y is infinite [-]
+    residual_displacement: NDArray[np.float64]  #: plastic part of x_p at the end [m]
+    plastic_energy: NDArray[np.float64]  #: dissipated by the yielding pier [J]
 
     @property
     def governing(self) -> NDArray[np.float64]:
@@ -101,6 +104,7 @@ def peak_reactions(
     pier_stiffness: ArrayLike,
     damping_ratio: ArrayLike,
     speed: ArrayLike,
+    yield_reaction: ArrayLike = math.inf,
     progress: Callable[[int], object] = lambda count: None,
 ) -> PeakReactions:
     """Return the peak reactions of many collisions.
@@ -118,6 +122,8 @@ def peak_reactions(
         Fraction of critical damping, from 0 to below 1 [-].
     speed : array_like
         Speeds at first touch [m/s].
+    yield_reaction : array_like, optional
+        Reactions at which the piers yield; infinite where they never do [N].
     progress : callable, optional
         Called now and then with the number of collisions done since the last call; the `update`
         of a progress bar of `tqdm`, say.
@@ -132,9 +138,22 @@ def peak_reactions(
     InputError
         When a value is out of range or the shapes do not broadcast.
     """
-    shape, chunks = parameter_chunks(truck, pier_mass, pier_stiffness, damping_ratio, speed)
+    shape, chunks = parameter_chunks(
+        truck, pier_mass, pier_stiffness, damping_ratio, speed, yield_reaction
+    )
     parameters = (chunk for _, chunk in chunks)
     flat = propagate_all(parameters, math.prod(shape), progress=progress)
-    engine, cargo, *times = (outcome.reshape(shape) for outcome in flat)
-    engine, cargo = np.multiply(pier_stiffness, engine), np.multiply(pier_stiffness, cargo)
-    return PeakReactions(engine, cargo, *times)
+    found = Outcomes(*(outcome.reshape(shape) for outcome in flat))
+    stiffness, resistance = (np.asarray(x, dtype=float) for x in (pier_stiffness, yield_reaction))
+    return PeakReactions(
+        engine=np.minimum(stiffness * found.engine_peak, resistance),
+        cargo=np.minimum(stiffness * found.cargo_peak, resistance),
+        engine_time=found.engine_peak_time,
+        cargo_time=found.cargo_peak_time,
+        engine_contact_time=found.engine_contact,
+        cargo_contact_time=found.cargo_contact,
+        ductility=stiffness * found.largest / resistance,
+        residual_displacement=found.displacement,
+        # An infinite resistance has no path to be multiplied by.
+        plastic_energy=np.where(np.isfinite(resistance), resistance, 0.0) * found.path,
+    )

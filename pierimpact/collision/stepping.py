@@ -48,12 +48,20 @@ from pierimpact.collision.series import (
     Terms,
     terms_needed,
 )
+from pierimpact.collision.yielding import (
+    ROUND_OFF,
+    YIELDING_ENDS,
+    YIELDS_BACKWARD,
+    YIELDS_FORWARD,
+    Yielding,
+)
 
 ENGINE, BODY, PIER = range(3)  # order of δ1, δ2 and x_p in a series
-PIER_MAXIMUM = 8  # of its displacement: an event, but not a change of regime
+PIER_EXTREME = 8  # of its displacement: an event, but not a change of regime
 
 TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative to its scale
 HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
+HARDLY = 1e-11  # relative to the largest displacement of the pier
 STEPS = 100_000  # limit; no collision of the studied domain takes a hundredth of it
 
 Rates: TypeAlias = tuple[Real, Real, Real]  # value, first and second rate
@@ -105,6 +113,7 @@ def longest_step(motion: LinearMotion, ops: Ops) -> Real:
     slope1, slope2, c = motion.slope1, motion.slope2, motion.c
     g1, g2 = motion.inverse_m1 * slope1, motion.inverse_m2 * slope2
     square = motion.b + motion.inverse_mp * (slope1 + slope2) + ops.where(g1 > g2, g1, g2) + c * c
+    square = square + motion.pace
     return PHASE / ops.lib.sqrt(square)
 
 
@@ -154,6 +163,20 @@ def event_functions(
             level = where(acts & stuck, -HOLDING_WEIGHT - TOLERANCE, -NO_BOUND)
             functions.append(EventFunction(FORWARD, order, ((-weight, which),), level - force))
             functions.append(EventFunction(BACKWARD, order, ((weight, which),), level + force))
+
+    # The pier begins to yield at either limit, and is elastic again where it turns back.
+    if state.yielding is not None:
+        direction = state.yielding.direction
+        elastic, yields = direction == 0.0, direction != 0.0
+        if some(elastic):
+            per_limit = where(elastic, 1.0 / state.yielding.limit, 0.0)
+            level = per_speed * 0.0 - 1.0 - TOLERANCE
+            functions.append(EventFunction(YIELDS_FORWARD, 0, ((per_limit, PIER),), level))
+            functions.append(EventFunction(YIELDS_BACKWARD, 0, ((-per_limit, PIER),), level))
+        if some(yields):
+            level = where(yields, -TOLERANCE, -NO_BOUND)
+            back = -direction * per_speed
+            functions.append(EventFunction(YIELDING_ENDS, 1, ((back, PIER),), level))
     return functions
 
 
@@ -175,12 +198,17 @@ def trial_step(
 
 
 def may_rise(
-    functions: list[EventFunction], series: Series, peak: Real, h: Real, ops: Ops
+    functions: list[EventFunction],
+    series: Series,
+    peak: Real,
+    h: Real,
+    ops: Ops,
+    yielding: Yielding | None = None,
 ) -> list[tuple[EventFunction, Flag]]:
     """Return the functions per step, each with whether it may rise above zero.
 
     Added is the maximum of the pier's displacement, which matters only where it may exceed the
-    `peak` so far.
+    `peak` so far; and of a pier that can yield the minimum, where it may be the largest so far.
     """
     where = ops.where
     # No rate departs from its start by more than the sum of its further terms, and no displacement
@@ -202,7 +230,13 @@ def may_rise(
         flagged.append((function, most > 0.0))
     xp, vp = series[PIER][0], abs(series[PIER][1])
     may_peak = (spread[PIER] > vp) & (xp + vp + spread[PIER] > peak)
-    flagged.append((EventFunction(PIER_MAXIMUM, 1, ((0.0 * h - 1.0, PIER),), 0.0 * h), may_peak))
+    if yielding is not None:
+        elastic, farthest = yielding.direction == 0.0, vp + spread[PIER] - yielding.displacement
+        may_dip = (spread[PIER] > vp) & (farthest - xp > yielding.largest) & elastic
+        dip = EventFunction(PIER_EXTREME, 1, ((0.0 * h + 1.0, PIER),), 0.0 * h)
+        flagged.append((dip, may_dip))
+        may_peak = may_peak & elastic
+    flagged.append((EventFunction(PIER_EXTREME, 1, ((0.0 * h - 1.0, PIER),), 0.0 * h), may_peak))
     return flagged
 
 
@@ -211,19 +245,20 @@ def first_event(
 ) -> tuple[State, Real, Real]:
     """Return the state with its peak raised, the event that ends the step, and at what fraction."""
     where = ops.where
-    event, theta, maximum = NO_EVENT + 0.0 * h, 1.0 + 0.0 * h, NEVER + 0.0 * h
+    event, theta, extremes = NO_EVENT + 0.0 * h, 1.0 + 0.0 * h, []
     for which, fraction, happens in ops.rises(flagged, series):
-        if which == PIER_MAXIMUM:
-            maximum = where(happens, fraction, NEVER)
+        if which == PIER_EXTREME:
+            extremes.append(where(happens, fraction, NEVER))
         else:
             sooner = fraction < theta
             theta = where(sooner, fraction, theta)
             event = where(sooner, where(happens, which, NO_EVENT), event)
-    passed = maximum < theta
-    if ops.some(passed):
-        weights = ops.weights(where(passed, maximum, 0.0), len(series[PIER]))
-        time = state.time + maximum * h
-        state = raise_peak(state, ops.dot(weights, series[PIER]), time, passed, ops)
+    for extreme in extremes:
+        passed = extreme < theta
+        if ops.some(passed):
+            weights = ops.weights(where(passed, extreme, 0.0), len(series[PIER]))
+            time = state.time + extreme * h
+            state = raise_peak(state, ops.dot(weights, series[PIER]), time, passed, ops)
     return state, event, theta
 
 
@@ -236,12 +271,15 @@ def advance(
     longest = longest_step(motion, ops)
     h = trial_step(longest, initial, functions, ops)
     series = expand(motion, initial, h, terms_needed(ops.largest(h / longest)), ops)
-    flagged = may_rise(functions, series, state.peak(ops), h, ops)
+    flagged = may_rise(functions, series, state.peak(ops), h, ops, state.yielding)
     state, event, theta = first_event(flagged, series, state, h, ops)
     length, position = theta * h, evaluate(series, h, theta, ops)
     state = state._replace(time=state.time + length, position=position)
     state = raise_peak(state, position.xp, state.time, True, ops)
-    resistance = parameters.pier_stiffness * position.xp + parameters.pier_damping * position.vp
+    elastic = position.xp
+    if state.yielding is not None:
+        elastic = state.yielding.elastic_part(elastic, ops)
+    resistance = parameters.pier_stiffness * elastic + parameters.pier_damping * position.vp
     return change_regime(parameters, state, motion, resistance, event, ops), length
 
 
@@ -250,6 +288,7 @@ def prospects(
 ) -> tuple[Flag, Flag]:
     """Say whether no peak can be raised and no first contact come, and whether the truck has left.
 
+    A peak counts as raised where the pier yields, too, for its displacement grows.
     Nothing can come where the energy that can still reach the pier does not suffice. The pier can
     only push a body back, so that the energy of a body moving back does not count, unless friction
     on the pier can drag it forward. The truck has left where both bodies have separated from the
@@ -274,6 +313,10 @@ def prospects(
     peak = state.peak(ops)
     peak = where(peak > 0.0, peak, 0.0)
     no_peak = 2.0 * energy <= parameters.pier_stiffness * peak**2 * (1.0 + 1e-9)
+    if state.yielding is not None:
+        limit = state.yielding.limit
+        yields_no_more = 2.0 * energy <= parameters.pier_stiffness * limit**2 * (1.0 + ROUND_OFF)
+        no_peak = (no_peak | (peak >= limit * (1.0 - ROUND_OFF))) & yields_no_more
 
     engine_left = (state.engine.regime == FREE) & (v1 <= 0.0)
     body_left = ((state.body.regime == FREE) & (v2 <= 0.0)) | state.stuck
@@ -281,17 +324,37 @@ def prospects(
 
 
 def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
-    """Say whether no later instant can raise a peak or bring a first contact.
+    """Say whether no later instant can raise a peak, bring a first contact or let the pier yield.
 
     Either the energy does not suffice, or the truck has left and the pier has vibrated freely for
-    a whole period.
+    a whole period. A pier that yields comes to rest before, unless the spring of a body that sticks
+    to the road still holds it with just about R_y.
     """
-    mass, stiffness = parameters.pier_mass, parameters.pier_stiffness
-    energy = 0.5 * (stiffness * state.position.xp**2 + mass * state.position.vp**2)
+    mass, stiffness, yielding = parameters.pier_mass, parameters.pier_stiffness, state.yielding
+    elastic = state.position.xp
+    if yielding is not None:
+        elastic = yielding.elastic_part(elastic, ops)
+    energy = 0.5 * (stiffness * elastic**2 + mass * state.position.vp**2)
     decided, left = prospects(parameters, state, energy, ops)
     vibrating_mass = mass + ops.where(parameters.on_pier, parameters.body.mass, 0.0)
     period = 2.0 * math.pi * ops.lib.sqrt(vibrating_mass / stiffness)
-    return decided | (left & (state.time > state.last_change + period))
+    left = left & (state.time > state.last_change + period)
+    if yielding is not None:
+        elastic = yielding.direction == 0.0
+        decided, left = decided & elastic, left & (elastic | held(parameters, state, yielding))
+    return decided | left
+
+
+def held(parameters: Parameters, state: State, yielding: Yielding) -> Flag:
+    """Say whether a pier that yields hardly moves under the spring of a body at rest.
+
+    About the force R_y of the spring it vibrates with no more than its present amplitude.
+    """
+    line, position = state.body, state.position
+    surplus = line.intercept + line.slope * position.d2
+    surplus = surplus - yielding.direction * yielding.limit * parameters.pier_stiffness
+    square = surplus**2 + line.slope * parameters.pier_mass * position.vp**2
+    return square <= (HARDLY * line.slope * yielding.largest) ** 2
 
 
 def propagate(
@@ -322,7 +385,7 @@ def propagate(
 
 
 class Outcomes(NamedTuple):
-    """Peaks of x_p with their times, and times of the first contacts, by collision."""
+    """Peaks of R/k_p with their times, times of the first contacts, and yielding, by collision."""
 
     engine_peak: NDArray[np.float64]
     cargo_peak: NDArray[np.float64]
@@ -330,6 +393,30 @@ class Outcomes(NamedTuple):
     cargo_peak_time: NDArray[np.float64]
     engine_contact: NDArray[np.float64]
     cargo_contact: NDArray[np.float64]
+    largest: NDArray[np.float64]  # as in `Yielding`; zero where no pier can yield
+    displacement: NDArray[np.float64]
+    path: NDArray[np.float64]
+
+
+def outcomes_of(state: State) -> Outcomes:
+    """Return what the states of collisions hold of their outcomes."""
+    yielding = state.yielding
+    largest = displacement = path = 0.0 * state.time
+    if yielding is not None:
+        more = yielding.beyond(state.position.xp, ARRAYS)
+        largest = yielding.largest
+        displacement, path = yielding.displacement + more, yielding.path + abs(more)
+    return Outcomes(
+        engine_peak=state.engine_peak,
+        cargo_peak=state.cargo_peak,
+        engine_peak_time=state.engine_peak_time,
+        cargo_peak_time=state.cargo_peak_time,
+        engine_contact=state.engine_contact,
+        cargo_contact=state.cargo_contact,
+        largest=largest,
+        displacement=displacement,
+        path=path,
+    )
 
 
 class Running(NamedTuple):
@@ -381,7 +468,7 @@ def propagate_all(
             steps = steps + 1
             if steps.max() > STEPS:
                 raise RuntimeError("a collision did not come to an end")
-        outcomes[:, column[done]] = [getattr(state, name)[done] for name in Outcomes._fields]
+        outcomes[:, column[done]] = select(outcomes_of(state), done)
         progress(int(np.count_nonzero(done)))
         running = select(Running(parameters, state, column, steps), ~done)
         if 2 * len(running.column) < CHUNK:

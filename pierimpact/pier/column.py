@@ -375,6 +375,21 @@ class StruckColumn:
             top_moment=reaction * found.top_moment,
         )
 
+    def yield_reaction(self, moment_resistance: float) -> float:
+        """Return the static reaction at which the column first reaches its moment resistance [N].
+
+        At this reaction R_y the largest moment anywhere, elastic and without axial force, is the
+        resistance M_R, and the first hinge forms. A redundant column carries more until its hinges
+        make it a mechanism, so that R_y is on the safe side for the reaction. Derived here.
+
+        Parameters
+        ----------
+        moment_resistance : float
+            Resistance M_R of the section in bending [N m].
+        """
+        moment_resistance = positive("moment_resistance", moment_resistance)
+        return moment_resistance / abs(self.member_forces(1.0).largest_moment.value)
+
     @property
     def stiffness(self) -> float:
         """Stiffness k_p = 1/x(z_n) (Eq. 3 of the source paper) [N/m]."""

@@ -1,11 +1,11 @@
 """The pier as one degree of freedom at the nominal impact height."""
 
 from dataclasses import dataclass
-from math import pi
+from math import inf, isfinite, pi
 
 from numpy import sqrt
 
-from pierimpact.checks import InputError, not_negative, positive
+from pierimpact.checks import InputError, not_negative, positive, positive_or_infinite
 from pierimpact.handcalc import Calculation, Real
 
 
@@ -44,6 +44,10 @@ def vibration(kp: Real, mp: Real, zeta: Real) -> dict[str, Real]:
 class EquivalentPier:
     """The pier's single-degree-of-freedom mass, spring and damper.
 
+    The spring is elastic, or elastic–perfectly plastic: its force is k_p times the elastic part of
+    the displacement and stays within ±R_y, the rest of the displacement is plastic. The damper
+    acts beside it all the same. The law of yielding is this project's, not the source paper's.
+
     Parameters
     ----------
     mass : float
@@ -52,16 +56,21 @@ class EquivalentPier:
         Static transverse stiffness k_p at the nominal impact height (Eq. 3) [N/m].
     damping_ratio : float, optional
         Fraction ζ of critical damping, from 0 to below 1 [-].
+    yield_reaction : float, optional
+        Reaction R_y at which the pier yields, in either direction; infinite where it never does
+        [N].
 
     Raises
     ------
     InputError
-        When mass or stiffness is not positive, or the damping ratio is out of range.
+        When mass, stiffness or yield reaction is not positive, or the damping ratio is out of
+        range.
     """
 
     mass: float
     stiffness: float
     damping_ratio: float = 0.05
+    yield_reaction: float = inf
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "mass", positive("mass", self.mass))
@@ -70,6 +79,8 @@ class EquivalentPier:
         if damping_ratio >= 1.0:
             raise InputError(f"damping_ratio must be below 1, got {damping_ratio:g}")
         object.__setattr__(self, "damping_ratio", damping_ratio)
+        yield_reaction = positive_or_infinite("yield_reaction", self.yield_reaction)
+        object.__setattr__(self, "yield_reaction", yield_reaction)
 
     @classmethod
     def from_frequency(
@@ -79,6 +90,11 @@ class EquivalentPier:
         mass, frequency = positive("mass", mass), positive("frequency", frequency)
         stiffness = stiffness_at_frequency(mass, frequency)
         return cls(mass=mass, stiffness=stiffness, damping_ratio=damping_ratio)
+
+    @property
+    def yields(self) -> bool:
+        """Whether the pier yields at any reaction."""
+        return isfinite(self.yield_reaction)
 
     @property
     def values(self) -> dict[str, float]:

@@ -1,7 +1,7 @@
 """One collision against time: the forces with their regimes and peaks, and the energy."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -42,6 +42,7 @@ _SHARES = (
     ("friction", "friction", "#a9b1b8"),
     ("damping", "damping", PURPLE),
 )
+_YIELDING = ("pier_plastic", "yielding", INK)  # one more share where the pier yields
 
 
 class Regime(NamedTuple):
@@ -139,16 +140,20 @@ def energy_panel(figure: Figure) -> Axes:
     """Return the axes of `draw_energy`."""
     axes = panel(figure, "Energy", _TIME, "Share of the truck’s energy [%]")
     axes.set_ylim(0.0, 100.0)
+    _name_shares(axes, _SHARES)
+    return axes
+
+
+def _name_shares(axes: Axes, shares: Sequence[tuple[str, str, str]]) -> None:
     key(
         axes,
-        {words: colour for _, words, colour in _SHARES},
+        {words: colour for _, words, colour in shares},
         handlelength=0.8,
         handleheight=0.8,
         handletextpad=0.4,
         columnspacing=0.7,
         fontsize=10.0 * PIXEL,
     )
-    return axes
 
 
 def draw_energy(axes: Axes, history: CollisionHistory) -> None:
@@ -156,7 +161,10 @@ def draw_energy(axes: Axes, history: CollisionHistory) -> None:
     axes.set_xlim(_span(history))
     energy, whole = history.energy, history.collision.energy
     few = np.linspace(0.0, history.time[-1], 250)  # samples are enough for its outlines
-    names, _, colours = zip(*_SHARES, strict=True)
+    drawn = (*_SHARES, _YIELDING) if history.pier.yields else _SHARES
+    if history.pier.yields:
+        _name_shares(axes, drawn)
+    names, _, colours = zip(*drawn, strict=True)
     shares = [100.0 / whole * np.interp(few, history.time, getattr(energy, n)) for n in names]
     axes.stackplot(1e3 * few, *shares, colors=colours, linewidth=0.0)
 

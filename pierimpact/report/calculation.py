@@ -1,6 +1,6 @@
 """The calculation of a case: from the nominal impact height to reactions and member forces."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -165,6 +165,18 @@ class Calculation:
             "shear": Demand(abs(static.largest_shear.value), shear, asked),
             "moment": Demand(abs(static.largest_moment.value), moment, asked),
         }
+
+    @cached_property
+    def yielding(self) -> CollisionHistory | None:
+        """The collision with a pier that yields at its moment resistance; None where it does not.
+
+        None also where the case gives no moment resistance.
+        """
+        resistance, peak = self.case.inputs.moment_resistance, self.governing_peak.reaction
+        if resistance is None or self.struck.yield_reaction(resistance) >= peak:
+            return None
+        pier = replace(self.pier, yield_reaction=self.struck.yield_reaction(resistance))
+        return simulate(self.case.truck, pier, self.case.inputs.speed)
 
     @cached_property
     def average_forces(self) -> dict[float, AverageForce | None]:

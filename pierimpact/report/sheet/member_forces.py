@@ -118,6 +118,43 @@ class MemberForces(Section):
             ),
         )
 
+    def yielding(self) -> Block | None:
+        """Return what the collision does to the pier if it yields in bending; None if it does not.
+
+        None also where the case gives no moment resistance.
+        """
+        history, inputs = self.calculation.yielding, self.case.inputs
+        if history is None or inputs.moment_resistance is None:
+            return None
+        moment = abs(self.calculation.struck.member_forces(1.0).largest_moment.value)
+        largest = float(np.abs(history.pier_displacement).max())
+        energy = history.pier_plastic_energy
+        share = rounded(100.0 * energy / history.collision.energy, 3)
+        rows: list[list[Inline]] = [
+            ["Yield reaction", Tex(r"R_\mathrm{y} = M_\mathrm{R} / \max |M|"),
+             *self.shown(history.pier.yield_reaction, "force")],
+            ["Largest moment under a unit force", Tex(r"\max |M|"), *self.shown(moment, "length")],
+            ["Largest displacement at the impact", Tex(r"x_\mathrm{p}"),
+             *self.shown(largest, "section length")],
+            ["Ductility demand", Tex(r"\max |x_\mathrm{p}| \, k_\mathrm{p} / R_\mathrm{y}"),
+             rounded(history.ductility, 3), ""],
+            ["Displacement that stays", "",
+             *self.shown(history.residual_displacement, "section length")],
+            [f"Energy taken by yielding, {share} % of the truck’s", "",
+             *self.shown(energy, "energy")],
+        ]  # fmt: skip
+        return Table(
+            label="tab-yielding",
+            caption="If the column yields in bending: the full model with a pier that is elastic up "
+            "to the reaction at which its moment resistance is first reached, and perfectly "
+            "plastic from there. A redundant column carries more until its hinges make it a "
+            "mechanism. How much ductility the section has, the case does not say; shear is not "
+            "ductile, and its utilisation stays as it is.",
+            columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
+            rows=rows,
+            strong=[3],
+        )
+
     def utilisation(self) -> Block:
         """Return demand, resistance, utilisation and verdict of shear and moment."""
         inputs, result = self.case.inputs, self.calculation

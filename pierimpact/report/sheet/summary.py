@@ -134,8 +134,8 @@ class Summary(Section):
         )
         return Paragraph(
             f"{contacts}{known}The {self.calculation.governs} peak governs. The design reaction is "
-            "that of the design procedure, which can be followed by hand, or the peak of the full model "
-            f"if that is larger; here it is that of the {self.calculation.governing_method}. "
+            "that of the design procedure, which can be followed by hand, or the peak of the full "
+            f"model if that is larger; here it is that of the {self.calculation.governing_method}. "
             f"The comparison with codes is under this reaction as a static force. {self._members()}"
         )
 
