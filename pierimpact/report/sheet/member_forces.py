@@ -131,12 +131,12 @@ class MemberForces(Section):
         energy = history.pier_plastic_energy
         share = rounded(100.0 * energy / history.collision.energy, 3)
         rows: list[list[Inline]] = [
-            ["Yield reaction", Tex(r"R_\mathrm{y} = M_\mathrm{R} / \max |M|"),
+            ["Yield reaction", Tex(r"R_\mathrm{y} = M_\mathrm{R} / \left| M \right|_\mathrm{max}"),
              *self.shown(history.pier.yield_reaction, "force")],
-            ["Largest moment under a unit force", Tex(r"\max |M|"), *self.shown(moment, "length")],
+            ["Largest moment under a unit force", Tex(r"\left| M \right|_\mathrm{max}"), *self.shown(moment, "length")],
             ["Largest displacement at the impact", Tex(r"x_\mathrm{p}"),
              *self.shown(largest, "section length")],
-            ["Ductility demand", Tex(r"\max |x_\mathrm{p}| \, k_\mathrm{p} / R_\mathrm{y}"),
+            ["Ductility demand", Tex(r"\left| x_\mathrm{p} \right|_\mathrm{max} \, k_\mathrm{p} / R_\mathrm{y}"),
              rounded(history.ductility, 3), ""],
             ["Displacement that stays", "",
              *self.shown(history.residual_displacement, "section length")],
@@ -145,8 +145,8 @@ class MemberForces(Section):
         ]  # fmt: skip
         return Table(
             label="tab-yielding",
-            caption="If the column yields in bending: the full model with a pier that is elastic up "
-            "to the reaction at which its moment resistance is first reached, and perfectly "
+            caption="If the column yields in bending: the full model with a pier that is elastic "
+            "up to the reaction at which its moment resistance is first reached, and perfectly "
             "plastic from there. A redundant column carries more until its hinges make it a "
             "mechanism. How much ductility the section has, the case does not say; shear is not "
             "ductile, and its utilisation stays as it is.",
