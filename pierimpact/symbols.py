@@ -75,10 +75,10 @@ Am | A_\mathrm{m} | area | area of the same mass in concrete
 Ic | I_\mathrm{c} | second moment | second moment of area of the concrete
 Is | I_\mathrm{s} | second moment | second moment of area of the steel
 Sf | S_\mathrm{f} | first moment | first moment of area of a flange or a round end
-U | U | shear integral | integral of $S^2/b$ over the depth, $S$ being the first moment of the area beyond a cut of width $b$
-Uw | U_\mathrm{w} | shear integral | part of the integral $U$ from the webs or the straight sides
-Uf | U_\mathrm{f} | shear integral | part of the integral $U$ from the flanges or the round ends
-Uh | U_\mathrm{h} | shear integral | part of the integral $U$ from the shear along the flanges
+U | U | shear integral | integral of $S^2/b$ over the depth, $b$ being the width
+Uw | U_\mathrm{w} | shear integral | integral of $S^2/b$ over the webs or the straight sides
+Uf | U_\mathrm{f} | shear integral | integral of $S^2/b$ over the flanges or the round ends
+Uh | U_\mathrm{h} | shear integral | integral of $S^2/b$ along the flanges, $b$ being their thickness
 kappa_s | \kappa_\mathrm{s} | share | shear coefficient of the steel
 kappa | \kappa | share | shear coefficient
 EI | EI | flexural rigidity | flexural rigidity

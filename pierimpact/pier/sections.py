@@ -29,7 +29,7 @@ def circle(D: Real) -> dict[str, Real]:
     """A solid circle."""
     A = pi * D**2 / 4
     I = pi * D**4 / 64
-    kappa = 9 / 10  # energy of the shear stress of beam theory, derived here
+    kappa = 9 / 10  # energy of the shear stress, derived here
     return locals()
 
 
@@ -38,7 +38,7 @@ def rectangle(b: Real, h: Real) -> dict[str, Real]:
     """A solid rectangle, for bending in the direction of its depth h."""
     A = b * h
     I = b * h**3 / 12
-    kappa = 5 / 6  # energy of the shear stress of beam theory, derived here
+    kappa = 5 / 6  # energy of the shear stress, derived here
     return locals()
 
 
@@ -49,7 +49,7 @@ def _ring(D: Real, t: Real) -> tuple[Real, ...]:
     kappa = where(
         Di > 0.12 * D,
         9 / 8 * ((D**2 + Di**2) / (D**2 + D * Di + Di**2)) ** 2,
-        9 / 10,  # energy of the shear stress of beam theory, derived here
+        9 / 10,  # energy of the shear stress, derived here
     )
     return Di, A, I, kappa
 
@@ -63,7 +63,7 @@ def _box(b: Real, h: Real, t: Real) -> tuple[Real, ...]:
     Uw = Sf**2 * hi / (2 * t) + Sf * hi**3 / 6 + t * hi**5 / 60
     Uf = b * t**3 / 2 * (h**2 / 3 - h * t / 2 + t**2 / 5)
     Uh = t * (h - t) ** 2 * bi**3 / 24
-    kappa = I**2 / (A * (Uw + Uf + Uh))  # energy of the shear stress of beam theory, derived here
+    kappa = I**2 / (A * (Uw + Uf + Uh))  # energy of the shear stress, derived here
     return bi, hi, A, I, Sf, Uw, Uf, Uh, kappa
 
 
@@ -108,7 +108,7 @@ def regular_polygon(ns: Real, Df: Real, U: Real) -> dict[str, Real]:
     ls = Df * tan(pi / ns)
     A = ns * ls * Df / 4
     I = A * (3 * Df**2 + ls**2) / 48
-    kappa = I**2 / (A * U)  # energy of the shear stress of beam theory, derived here
+    kappa = I**2 / (A * U)  # energy of the shear stress, derived here
     return locals()
 
 

@@ -127,8 +127,9 @@ class EquivalentPierSteps(Section):
         for step in steps:
             if "U" in step.names:
                 equations.append(self._shear_integral())
-            if "psi" in step.names:
-                step = step._replace(remark=f"ψ: {self._source_of('stiffness_factor')}")
+            for name in step.names & {"psi", "EIe"}:
+                source = self._source_of(SYMBOLS[name].key)
+                step = step._replace(remark=f"${SYMBOLS[name].latex}$: {source}")
             equations.append(writer.equation(step))
         if self.case.inputs.concrete_strength is not None:
             equations.insert(0, self._concrete_modulus())

@@ -130,18 +130,19 @@ class MemberForces(Section):
         largest = float(np.abs(history.pier_displacement).max())
         energy = history.pier_plastic_energy
         share = rounded(100.0 * energy / history.collision.energy, 3)
-        rows: list[list[Inline]] = [
-            ["Yield reaction", Tex(r"R_\mathrm{y} = M_\mathrm{R} / \left| M \right|_\mathrm{max}"),
-             *self.shown(history.pier.yield_reaction, "force")],
-            ["Largest moment under a unit force", Tex(r"\left| M \right|_\mathrm{max}"), *self.shown(moment, "length")],
-            ["Largest displacement at the impact", Tex(r"x_\mathrm{p}"),
-             *self.shown(largest, "section length")],
-            ["Ductility demand", Tex(r"\left| x_\mathrm{p} \right|_\mathrm{max} \, k_\mathrm{p} / R_\mathrm{y}"),
-             rounded(history.ductility, 3), ""],
-            ["Displacement that stays", "",
-             *self.shown(history.residual_displacement, "section length")],
-            [f"Energy taken by yielding, {share} % of the truck’s", "",
-             *self.shown(energy, "energy")],
+        most = r"\left| M \right|_\mathrm{max}"
+        ductility = r"\left| x_\mathrm{p} \right|_\mathrm{max} \, k_\mathrm{p} / R_\mathrm{y}"
+        taken = f"Energy taken by yielding, {share} % of the truck’s"
+        rows = [
+            ("Yield reaction", rf"R_\mathrm{{y}} = M_\mathrm{{R}} / {most}",
+             self.shown(history.pier.yield_reaction, "force")),
+            ("Largest moment under a unit force", most, self.shown(moment, "length")),
+            ("Largest displacement at the impact", r"x_\mathrm{p}",
+             self.shown(largest, "section length")),
+            ("Ductility demand", ductility, (rounded(history.ductility, 3), "")),
+            ("Displacement that stays", "",
+             self.shown(history.residual_displacement, "section length")),
+            (taken, "", self.shown(energy, "energy")),
         ]  # fmt: skip
         return Table(
             label="tab-yielding",
@@ -151,7 +152,7 @@ class MemberForces(Section):
             "mechanism. How much ductility the section has, the case does not say; shear is not "
             "ductile, and its utilisation stays as it is.",
             columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
-            rows=rows,
+            rows=[[name, Tex(symbol) if symbol else "", *shown] for name, symbol, shown in rows],
             strong=[3],
         )
 
