@@ -3,6 +3,9 @@
 Regimes and events are those of the pier with one degree of freedom. The motion of a regime is a
 matrix, which holds the modal coordinates of the beam: the states after steps of one length follow
 from its powers, many at once, and each step is searched for the first event by its Taylor series.
+
+The steps are as short as the highest shape needs. Where the contact force does not depend on the
+motion the shapes are independent, and those whose vibration has died out are left out.
 """
 
 import math
@@ -37,18 +40,23 @@ from pierimpact.pier.beam import BeamPier
 
 Array: TypeAlias = NDArray[np.float64]
 
-BLOCK = 16  # steps taken together
+DOUBLINGS = 4  # of the number of steps taken together, from one on
+FEWEST_MOVING = 8  # shapes that are always followed
+STILL = 1e-26  # share of the energy below which the vibration of a shape has died out
 
 
 class ModalMotion:
     """The motion of one regime as a matrix.
 
-    With n shapes, the state y is δ1, δ1', δ2, δ2', q (n,), q' (n,) and three constants: the
+    With n moving shapes, the state y is δ1, δ1', δ2, δ2', q (n,), q' (n,) and three constants: the
     intercepts of the springs' lines and the friction.
 
     q'' = φ F − 2 ζ ω q' − ω² q, where x_p = Σ φ q. The contact force is F = m_e x_p'' + S with
     m_e = 1/Σ φ² and the beam's resistance S = m_e Σ φ (2 ζ ω q' + ω² q). So δ1, δ2 and x_p obey
     the equations of `LinearMotion` with m_e for the pier's mass and S for its spring and damper.
+
+    Further shapes stand still, each at φ F/ω², which a constant contact force allows: F is the sum
+    of the constants.
 
     Parameters
     ----------
@@ -56,17 +64,27 @@ class ModalMotion:
         Equations of motion of the regime, m_p being m_e.
     beam : BeamPier
         The pier.
+    moving : int
+        Number of moving shapes n, the first ones.
     """
 
-    def __init__(self, motion: LinearMotion, beam: BeamPier) -> None:
-        omega, phi, mass = beam.circular_frequencies, beam.impact_deflection, beam.effective_mass
-        n = len(omega)
-        size = 2 * n + 7
+    def __init__(self, motion: LinearMotion, beam: BeamPier, moving: int) -> None:
+        n, size = moving, 2 * moving + 7
+        omega, phi = beam.circular_frequencies[:n], beam.impact_deflection[:n]
+        self.moving = moving
         d1, u1, d2, u2 = np.eye(4, size)
         q, p = np.eye(n, size, k=4), np.eye(n, size, k=4 + n)
         intercept1, intercept2, friction = np.eye(3, size, k=size - 3)
-        restoring = omega[:, None] ** 2 * q + beam.damping[:, None] * p
-        self.resistance = mass * phi @ restoring
+        force = intercept1 + intercept2 + motion.on_pier * friction
+        still = np.outer(beam.impact_deflection[n:] / beam.circular_frequencies[n:] ** 2, force)
+        # The coordinates q and q' of all shapes are this times a state.
+        self.coordinates = np.vstack((q, still, p, 0.0 * still))
+
+        if n < len(beam.impact_deflection):
+            motion = motion._replace(inverse_mp=float(phi @ phi))
+        restoring = omega[:, None] ** 2 * q + beam.damping[:n, None] * p
+        mass = 1.0 / (phi @ phi)
+        resistance = mass * phi @ restoring
         rows = motion._replace(
             b=motion.inverse_mp,
             c=0.0,
@@ -74,8 +92,8 @@ class ModalMotion:
             intercept2=intercept2,
             friction=friction,
         )
-        a1, a2, ap = accelerations(rows, Position(d1, u1, d2, u2, self.resistance, 0.0))
-        modal = np.outer(phi, mass * ap + self.resistance) - restoring
+        a1, a2, ap = accelerations(rows, Position(d1, u1, d2, u2, resistance, 0.0))
+        modal = np.outer(phi, mass * ap + resistance) - restoring
         rates = np.vstack((u1, a1, u2, a2, p, modal, np.zeros((3, size))))
 
         self.step = longest_step(motion._replace(b=omega.max() ** 2, c=0.0), FLOATS)
@@ -85,16 +103,23 @@ class ModalMotion:
         for k in range(1, TERMS):
             self.powers[k] = self.step * (rates @ self.powers[k - 1])
         # Those of δ1, δ2 and x_p.
-        self.terms = np.einsum("wi,kij->wkj", np.stack((d1, d2, phi @ q)), self.powers)
-        whole, steps = self.propagator(1.0), [np.eye(size)]
-        for _ in range(BLOCK):
-            steps.append(whole @ steps[-1])
-        self.steps = np.stack(steps)
+        displacement = beam.impact_deflection @ np.vstack((q, still))
+        self.terms = np.einsum("wi,kij->wkj", np.stack((d1, d2, displacement)), self.powers)
+        self.doublings = [self.propagator(1.0)]  # over one step, two, four, …
+        for _ in range(1, DOUBLINGS):
+            self.doublings.append(self.doublings[-1] @ self.doublings[-1])
 
     def propagator(self, theta: float) -> Array:
         """Return the matrix that carries a state over a fraction of the step."""
         matrix: Array = np.tensordot(weights_of_one(theta), self.powers, axes=1)
         return matrix
+
+    def steps(self, y: Array) -> Array:
+        """Return the states in which a block of steps starts, one a column."""
+        states = y[:, None]
+        for matrix in self.doublings:
+            states = np.hstack((states, matrix @ states))
+        return states
 
 
 Record: TypeAlias = Callable[[State, LinearMotion, float, ModalMotion, Array], None]
@@ -113,26 +138,36 @@ class BeamPropagation:
 
     def __init__(self, collision: Collision, beam: BeamPier) -> None:
         self.beam = beam
+        self.energy = collision.energy
         self.parameters = collision.parameters._replace(pier_mass=beam.effective_mass)
         self.state = start(self.parameters, FLOATS)
-        n = len(beam.circular_frequencies)
-        self.q, self.p = slice(4, 4 + n), slice(4 + n, 4 + 2 * n)
-        self.y = np.zeros(2 * n + 7)
-        self.y[:4] = self.state.position[:4]
+        self.q, self.p = np.zeros((2, len(beam.circular_frequencies)))
         self.motions: dict[tuple[float, ...], ModalMotion] = {}
 
     def modal_motion(self, motion: LinearMotion) -> ModalMotion:
         """Return the motion as a matrix; regimes that differ only in constants share it."""
-        key = (motion.inverse_m2, motion.inverse_mp, motion.slope1, motion.slope2)
+        moving = self.moving(motion)
+        key = (motion.inverse_m2, motion.inverse_mp, motion.slope1, motion.slope2, moving)
         if key not in self.motions:
-            self.motions[key] = ModalMotion(motion, self.beam)
+            self.motions[key] = ModalMotion(motion, self.beam, moving)
         return self.motions[key]
 
-    def position(self, y: Array) -> Position:
-        """Return the position of a state."""
-        phi = self.beam.impact_deflection
-        d1, u1, d2, u2 = y[:4].tolist()
-        return Position(d1, u1, d2, u2, float(phi @ y[self.q]), float(phi @ y[self.p]))
+    def moving(self, motion: LinearMotion) -> int:
+        """Return how many shapes have to be followed: all, or a half, a quarter, an eighth of them.
+
+        Under a constant force each shape vibrates for itself, and the higher ones die out first.
+        """
+        count = len(self.q)
+        if motion.slope1 or motion.slope2 or not motion.gamma:
+            return count
+        omega, phi = self.beam.circular_frequencies, self.beam.impact_deflection
+        force = motion.intercept1 + motion.intercept2 + motion.on_pier * motion.friction
+        rates = np.hypot(omega * self.q - phi * force / omega, self.p)
+        vibrating = np.flatnonzero(0.5 * rates**2 > STILL * self.energy)
+        least = max(FEWEST_MOVING, vibrating[-1] + 1 if len(vibrating) else 0)
+        while count >= 2 * least:
+            count //= 2
+        return count
 
     def advance(self, record: Record) -> None:
         """Take a block of steps, or as many as there are up to the first event."""
@@ -140,13 +175,12 @@ class BeamPropagation:
         motion = linear_motion(parameters, state, FLOATS)
         modal = self.modal_motion(motion)
         h, begin = modal.step, state.time
-        self.y[-3:] = motion.intercept1, motion.intercept2, motion.friction
-        states = modal.steps @ self.y
-        series = modal.terms @ states[:-1].T
+        states = modal.steps(self.modal_state(motion, modal.moving))
+        series = modal.terms @ states
 
         functions = event_functions(parameters, state, motion, FLOATS)
         flagged = may_rise(functions, series, state.peak(FLOATS), h, ARRAYS)
-        last, event, theta = BLOCK - 1, NO_EVENT, 1.0
+        last, event, theta = states.shape[1] - 1, NO_EVENT, 1.0
         for number in np.flatnonzero(np.any([flag for _, flag in flagged], axis=0)).tolist():
             here = [(function, flag[number]) for function, flag in flagged]
             state = state._replace(time=begin + number * h)
@@ -157,16 +191,29 @@ class BeamPropagation:
                 break
 
         for number in range(last + 1):
-            time, length = begin + number * h, h * (theta if number == last else 1.0)
-            at = self.state._replace(time=time, position=self.position(states[number]))
-            record(at, motion, length, modal, states[number])
-        self.y = modal.propagator(theta) @ states[last] if theta < 1.0 else states[last + 1]
-        position, time = self.position(self.y), begin + (last + theta) * h
+            at = self.state._replace(time=begin + number * h)
+            record(at, motion, h * (theta if number == last else 1.0), modal, states[:, number])
+        end = modal.propagator(theta) @ states[:, last]
+        self.q, self.p = np.split(modal.coordinates @ end, 2)
+        phi, time = self.beam.impact_deflection, begin + (last + theta) * h
+        d1, u1, d2, u2 = end[:4].tolist()
+        position = Position(d1, u1, d2, u2, float(phi @ self.q), float(phi @ self.p))
         state = state._replace(time=time, position=position)
         state = raise_peak(state, position.xp, time, True, FLOATS)
-        resistance = float(modal.resistance @ self.y)
-        self.state = change_regime(parameters, state, motion, resistance, event, FLOATS)
-        self.y[3] = self.state.position.u2
+        self.state = change_regime(parameters, state, motion, self.resistance, event, FLOATS)
+
+    def modal_state(self, motion: LinearMotion, moving: int) -> Array:
+        """Return the present state of the moving shapes, as `ModalMotion` takes it."""
+        constants = (motion.intercept1, motion.intercept2, motion.friction)
+        truck = self.state.position[:4]
+        return np.concatenate((truck, self.q[:moving], self.p[:moving], constants))
+
+    @property
+    def resistance(self) -> float:
+        """Force of the beam's stiffness and damping at the impact, as in `ModalMotion` [N]."""
+        beam = self.beam
+        restoring = beam.circular_frequencies**2 * self.q + beam.damping * self.p
+        return beam.effective_mass * float(beam.impact_deflection @ restoring)
 
     def finished(self) -> bool:
         """Say whether no later instant matters.
@@ -175,8 +222,7 @@ class BeamPropagation:
         the beam has vibrated for a whole period of its first mode since the last change.
         """
         parameters, omega = self.parameters, self.beam.circular_frequencies
-        rates = np.concatenate((omega * self.y[self.q], self.y[self.p]))
-        energy = 0.5 * float(rates @ rates)
+        energy = 0.5 * float(np.sum((omega * self.q) ** 2 + self.p**2))
         decided, left = prospects(parameters, self.state, energy, FLOATS)
         # A body that sticks to the beam slows it down, by Dunkerley's bound.
         square = omega[0] ** -2

@@ -10,16 +10,14 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.beam import ModalMotion
 from pierimpact.collision.history import CollisionHistory, RecordedStep
-from pierimpact.collision.series import TERMS, weights_of_all
+from pierimpact.collision.series import TERMS
 from pierimpact.collision.stepping import PIER
 from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.member_forces import MemberForceHistory
 
 Array: TypeAlias = NDArray[np.float64]
 
-# Many modes make the steps short, and the highest hardly take part: samples of a step are no
-# closer than SPACING, within these numbers of them.
-SPACING = 30e-6  # [s]
+# Samples of a step. Many shapes make the steps short, and the highest hardly take part.
 FEWEST, MOST = 4, 24
 
 
@@ -62,8 +60,8 @@ class BeamCollisionHistory(CollisionHistory):
 
     @cached_property
     def _fractions(self) -> Array:
-        longest = max(length for _, _, length in self.steps)
-        return np.linspace(0.0, 1.0, 1 + min(max(FEWEST, math.ceil(longest / SPACING)), MOST))
+        shapes = len(self.beam.circular_frequencies)
+        return np.linspace(0.0, 1.0, 1 + max(FEWEST, math.ceil(MOST / shapes)))
 
     @property
     def _pieces(self) -> list[RecordedStep]:
@@ -94,9 +92,9 @@ class BeamCollisionHistory(CollisionHistory):
         size = 2 * len(self.beam.circular_frequencies)
         rows = np.empty((len(self.steps), len(fractions), size))
         for modal, share, numbers, states in self._groups:
-            terms = modal.powers[:, 4 : 4 + size] @ states
-            values = np.tensordot(terms, weights_of_all(share * fractions), axes=(0, 0))
-            rows[numbers] = np.moveaxis(values, 0, -1)
+            for column, fraction in enumerate(fractions):
+                matrix = modal.coordinates @ modal.propagator(share * fraction)
+                rows[numbers, column] = (matrix @ states).T
         return rows
 
     def _pier_energy(self) -> tuple[Array, Array]:
