@@ -18,7 +18,7 @@ from pierimpact.pier.member_forces import MemberForceHistory
 Array: TypeAlias = NDArray[np.float64]
 
 # Samples of a step. Many shapes make the steps short, and the highest hardly take part.
-FEWEST, MOST = 4, 24
+FEWEST, MOST = 6, 24
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,9 +35,11 @@ class BeamCollisionHistory(CollisionHistory):
 
     @cached_property
     def member_forces(self) -> MemberForceHistory:
-        """Shear and moment in time and over the height, and their envelopes."""
+        """Shear and moment in time and over the height, their envelopes and extremes."""
         beam, (q, _) = self.beam, self.modal_coordinates
-        return MemberForceHistory(z=beam.z, shear=q @ beam.shear, moment=q @ beam.moment)
+        return MemberForceHistory(
+            time=self.time, z=beam.z, shear=q @ beam.shear, moment=q @ beam.moment
+        )
 
     @cached_property
     def modal_coordinates(self) -> tuple[Array, Array]:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,44 +95,134 @@ class MemberForces:
         return Extreme(float(self.moment[corner]), height, height)
 
 
+class BeamExtreme(NamedTuple):
+    """A largest or smallest value of shear [N] or moment [N m], and where and when it occurs."""
+
+    value: float
+    z: float  #: height [m]
+    time: float  #: after first touch [s]
+
+
+class BeamExtremes(NamedTuple):
+    """The largest and the smallest (most negative) value of shear or moment."""
+
+    largest: BeamExtreme
+    smallest: BeamExtreme
+
+    @property
+    def governing(self) -> BeamExtreme:
+        """The one of the larger magnitude."""
+        return max(self, key=lambda extreme: abs(extreme.value))
+
+
+class _Peaks(NamedTuple):
+    """The largest or the smallest value in time at each height, and its time, shape (m,)."""
+
+    value: NDArray[np.float64]
+    time: NDArray[np.float64]
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MemberForceHistory:
-    """Shear and moment of a beam in time and over its height, and their envelopes.
+    """Shear and moment of a beam in time and over its height, their envelopes and extremes.
 
-    The sign convention is that of `MemberForces`.
+    The sign convention is that of `MemberForces`. Between samples in time and between heights
+    envelopes and extremes follow parabolas, so that they may slightly exceed the arrays.
 
     Parameters
     ----------
+    time : ndarray, shape (n,)
+        Times after first touch, in ascending order [s].
     z : ndarray, shape (m,)
         Heights from base to top; the impact height is there twice, first for the beam below it,
         then for that above [m].
     shear, moment : ndarray, shape (n, m)
-        Shear V [N] and moment M [N m] at the n times of the history.
+        Shear V [N] and moment M [N m] at these times and heights.
     """
 
+    time: NDArray[np.float64] = field(repr=False)
     z: NDArray[np.float64]
     shear: NDArray[np.float64] = field(repr=False)
     moment: NDArray[np.float64] = field(repr=False)
 
-    @cached_property
+    @property
     def largest_shear(self) -> NDArray[np.float64]:
         """Largest shear at each height, shape (m,) [N]."""
-        return np.asarray(self.shear.max(axis=0))
+        return self._shear_peaks[0].value
 
-    @cached_property
+    @property
     def smallest_shear(self) -> NDArray[np.float64]:
         """Smallest (most negative) shear at each height, shape (m,) [N]."""
-        return np.asarray(self.shear.min(axis=0))
+        return self._shear_peaks[1].value
 
-    @cached_property
+    @property
     def largest_moment(self) -> NDArray[np.float64]:
         """Largest moment at each height, shape (m,) [N m]."""
-        return np.asarray(self.moment.max(axis=0))
+        return self._moment_peaks[0].value
 
-    @cached_property
+    @property
     def smallest_moment(self) -> NDArray[np.float64]:
         """Smallest (most negative) moment at each height, shape (m,) [N m]."""
-        return np.asarray(self.moment.min(axis=0))
+        return self._moment_peaks[1].value
+
+    @property
+    def shear_extremes(self) -> BeamExtremes:
+        """Extremes of the shear."""
+        return self._extremes(*self._shear_peaks)
+
+    @property
+    def moment_extremes(self) -> BeamExtremes:
+        """Extremes of the moment."""
+        return self._extremes(*self._moment_peaks)
+
+    @cached_property
+    def _shear_peaks(self) -> tuple[_Peaks, _Peaks]:
+        return self._peaks(self.shear)
+
+    @cached_property
+    def _moment_peaks(self) -> tuple[_Peaks, _Peaks]:
+        return self._peaks(self.moment)
+
+    def _peaks(self, values: NDArray[np.float64]) -> tuple[_Peaks, _Peaks]:
+        heights = np.arange(len(self.z))
+
+        def beside(sample: NDArray[np.intp]) -> _Peaks:
+            samples = _with_neighbours(sample, len(self.time))
+            time, value = _vertex(self.time[samples], values[samples, heights])
+            return _Peaks(value, time)
+
+        return beside(values.argmax(axis=0)), beside(values.argmin(axis=0))
+
+    def _extremes(self, largest: _Peaks, smallest: _Peaks) -> BeamExtremes:
+        def beside(peaks: _Peaks, place: np.intp) -> BeamExtreme:
+            places = _with_neighbours(place, len(self.z))
+            z, value = _vertex(self.z[places], peaks.value[places])
+            return BeamExtreme(float(value), float(z), float(peaks.time[place]))
+
+        return BeamExtremes(
+            beside(largest, largest.value.argmax()), beside(smallest, smallest.value.argmin())
+        )
+
+
+def _with_neighbours(index: Any, count: int) -> NDArray[np.intp]:
+    """Return the index before, the index and the one after it, as far as there are any."""
+    return np.array([np.maximum(index - 1, 0), index, np.minimum(index + 1, count - 1)])
+
+
+def _vertex(
+    x: NDArray[np.float64], y: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return where the parabola through three points turns, and its value there.
+
+    Where the middle point is neither the highest nor the lowest, or has no neighbours, that point.
+    """
+    before, after = x[1] - x[0], x[2] - x[1]
+    up, down = y[1] - y[0], y[1] - y[2]
+    slope, bend = up * after**2 - down * before**2, up * after + down * before
+    turns = (before > 0.0) & (after > 0.0) & (up * down >= 0.0) & (bend != 0.0)
+    shift = np.where(turns, slope, 0.0) / np.where(turns, 2.0 * bend, 1.0)
+    width = np.where(turns, before * after * (before + after), 1.0)
+    return x[1] + shift, y[1] + 0.5 * shift * slope / width
 
 
 def _first_largest(values: NDArray[np.float64]) -> int:
