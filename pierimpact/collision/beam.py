@@ -10,7 +10,7 @@ motion the shapes are independent, and those whose vibration has died out are le
 
 import math
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,9 +82,9 @@ class ModalMotion:
 
         if n < len(beam.impact_deflection):
             motion = motion._replace(inverse_mp=float(phi @ phi))
-        restoring = omega[:, None] ** 2 * q + beam.damping[:n, None] * p
+        stiffness, viscous = omega[:, None] ** 2, beam.damping[:n, None]
         mass = 1.0 / (phi @ phi)
-        resistance = mass * phi @ restoring
+        resistance = mass * phi @ (stiffness * q + viscous * p)
         rows = motion._replace(
             b=motion.inverse_mp,
             c=0.0,
@@ -93,18 +93,22 @@ class ModalMotion:
             friction=friction,
         )
         a1, a2, ap = accelerations(rows, Position(d1, u1, d2, u2, resistance, 0.0))
-        modal = np.outer(phi, mass * ap + resistance) - restoring
-        rates = np.vstack((u1, a1, u2, a2, p, modal, np.zeros((3, size))))
+        forces = np.stack((a1, a2, mass * ap + resistance))
 
         self.step = longest_step(motion._replace(b=omega.max() ** 2, c=0.0), FLOATS)
         # Term k of the Taylor series of a state y over one step is powers[k] y.
-        self.powers = np.empty((TERMS, size, size))
+        self.powers = np.zeros((TERMS, size, size))
         self.powers[0] = np.eye(size)
         for k in range(1, TERMS):
-            self.powers[k] = self.step * (rates @ self.powers[k - 1])
+            # The rates of the term before; most of their matrix would be zero.
+            before, after = self.step * self.powers[k - 1], self.powers[k]
+            rates, moves = before[4 + n : 4 + 2 * n], before[4 : 4 + n]
+            after[0], after[2], after[4 : 4 + n] = before[1], before[3], rates
+            after[1], after[3], force = forces @ before
+            after[4 + n : 4 + 2 * n] = np.outer(phi, force) - stiffness * moves - viscous * rates
         # Those of δ1, δ2 and x_p.
         displacement = beam.impact_deflection @ np.vstack((q, still))
-        self.terms = np.einsum("wi,kij->wkj", np.stack((d1, d2, displacement)), self.powers)
+        self.terms: Any = np.moveaxis(np.stack((d1, d2, displacement)) @ self.powers, 1, 0)
         self.doublings = [self.propagator(1.0)]  # over one step, two, four, …
         for _ in range(1, DOUBLINGS):
             self.doublings.append(self.doublings[-1] @ self.doublings[-1])
@@ -193,7 +197,7 @@ class BeamPropagation:
         for number in range(last + 1):
             at = self.state._replace(time=begin + number * h)
             record(at, motion, h * (theta if number == last else 1.0), modal, states[:, number])
-        end = modal.propagator(theta) @ states[:, last]
+        end = (modal.propagator(theta) if theta < 1.0 else modal.doublings[0]) @ states[:, last]
         self.q, self.p = np.split(modal.coordinates @ end, 2)
         phi, time = self.beam.impact_deflection, begin + (last + theta) * h
         d1, u1, d2, u2 = end[:4].tolist()

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.beam import ModalMotion
 from pierimpact.collision.history import CollisionHistory, RecordedStep
-from pierimpact.collision.series import TERMS
+from pierimpact.collision.series import TERMS, weights_of_all
 from pierimpact.collision.stepping import PIER
 from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.member_forces import MemberForceHistory
@@ -94,9 +94,13 @@ class BeamCollisionHistory(CollisionHistory):
         size = 2 * len(self.beam.circular_frequencies)
         rows = np.empty((len(self.steps), len(fractions), size))
         for modal, share, numbers, states in self._groups:
-            for column, fraction in enumerate(fractions):
-                matrix = modal.coordinates @ modal.propagator(share * fraction)
-                rows[numbers, column] = (matrix @ states).T
+            if len(numbers) < len(fractions):  # their series cost less than the matrices
+                terms = modal.coordinates @ (modal.powers @ states)
+                values = np.tensordot(weights_of_all(share * fractions), terms, axes=(0, 0))
+            else:
+                matrices = [modal.propagator(share * fraction) for fraction in fractions]
+                values = np.stack([modal.coordinates @ (matrix @ states) for matrix in matrices])
+            rows[numbers] = np.moveaxis(values, -1, 0)
         return rows
 
     def _pier_energy(self) -> tuple[Array, Array]:
