@@ -69,6 +69,11 @@ class State(NamedTuple):
     cargo_peak_time: Real
     yielding: Yielding | None = None  # None where no pier can yield
 
+    def elastic_displacement(self, ops: Ops) -> Real:
+        """Return the elastic part R/k_p of the pier's displacement [m]."""
+        xp = self.position.xp
+        return xp if self.yielding is None else self.yielding.elastic_part(xp, ops)
+
     def peak(self, ops: Ops) -> Real:
         """Return the largest R/k_p so far, of those before or those from cargo contact on."""
         contact = self.cargo_contact
@@ -248,9 +253,8 @@ def change_regime(
     engine = next_branch(parameters.engine, state.engine, event, position.d1, ops)
     body = next_branch(parameters.body, state.body, event - 3, position.d2, ops)
     slip, stuck, u2 = update_friction(parameters, motion, resistance, state, body, event, ops)
-    yielding, elastic, xp = state.yielding, position.xp, position.xp
+    yielding, xp = state.yielding, position.xp
     if yielding is not None:
-        elastic = yielding.elastic_part(xp, ops)
         yielding, xp = yielding.after(event, xp, ops)
     meets_engine = (engine.regime == STEEP) & (state.engine_contact != state.engine_contact)
     meets_cargo = (body.regime == STEEP) & (state.cargo_contact != state.cargo_contact)
@@ -263,7 +267,7 @@ def change_regime(
         last_change=where(changes, time, state.last_change),
         engine_contact=where(meets_engine, time, state.engine_contact),
         cargo_contact=where(meets_cargo, time, state.cargo_contact),
-        cargo_peak=where(meets_cargo, elastic, state.cargo_peak),
+        cargo_peak=where(meets_cargo, state.elastic_displacement(ops), state.cargo_peak),
         cargo_peak_time=where(meets_cargo, time, state.cargo_peak_time),
         yielding=yielding,
     )

@@ -170,12 +170,11 @@ def event_functions(
         elastic, yields = direction == 0.0, direction != 0.0
         if some(elastic):
             per_limit = where(elastic, 1.0 / state.yielding.limit, 0.0)
-            level = per_speed * 0.0 - 1.0 - TOLERANCE
+            level = where(elastic, -1.0 - TOLERANCE, -NO_BOUND)
             functions.append(EventFunction(YIELDS_FORWARD, 0, ((per_limit, PIER),), level))
             functions.append(EventFunction(YIELDS_BACKWARD, 0, ((-per_limit, PIER),), level))
         if some(yields):
-            level = where(yields, -TOLERANCE, -NO_BOUND)
-            back = -direction * per_speed
+            level, back = where(yields, -TOLERANCE, -NO_BOUND), -direction * per_speed
             functions.append(EventFunction(YIELDING_ENDS, 1, ((back, PIER),), level))
     return functions
 
@@ -276,10 +275,8 @@ def advance(
     length, position = theta * h, evaluate(series, h, theta, ops)
     state = state._replace(time=state.time + length, position=position)
     state = raise_peak(state, position.xp, state.time, True, ops)
-    elastic = position.xp
-    if state.yielding is not None:
-        elastic = state.yielding.elastic_part(elastic, ops)
-    resistance = parameters.pier_stiffness * elastic + parameters.pier_damping * position.vp
+    reaction = parameters.pier_stiffness * state.elastic_displacement(ops)
+    resistance = reaction + parameters.pier_damping * position.vp
     return change_regime(parameters, state, motion, resistance, event, ops), length
 
 
@@ -331,9 +328,7 @@ def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
     to the road still holds it with just about R_y.
     """
     mass, stiffness, yielding = parameters.pier_mass, parameters.pier_stiffness, state.yielding
-    elastic = state.position.xp
-    if yielding is not None:
-        elastic = yielding.elastic_part(elastic, ops)
+    elastic = state.elastic_displacement(ops)
     energy = 0.5 * (stiffness * elastic**2 + mass * state.position.vp**2)
     decided, left = prospects(parameters, state, energy, ops)
     vibrating_mass = mass + ops.where(parameters.on_pier, parameters.body.mass, 0.0)
