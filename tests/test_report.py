@@ -318,7 +318,7 @@ def test_no_drawing_stands_among_what_comes_after_its_part(made):
     _, *parts = made[1].html.read_text("utf-8").split("<h2 data-number")
     tables = [re.findall(r"(Table)&nbsp;(\d+\.)</span>", part) for part in parts]
     drawings = [re.findall(r"(Figure)&nbsp;(\d+\.)</span>", part) for part in parts]
-    assert sum(map(len, drawings)) == 5
+    assert sum(map(len, drawings)) == 7
     for text in pdf_text(made[1].pdf):
         for index, part in enumerate(drawings):
             after = [" ".join(name) for names in tables[index + 1 :] for name in names]

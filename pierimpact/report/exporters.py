@@ -9,7 +9,7 @@ import importlib.util
 import re
 import subprocess
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -266,10 +266,12 @@ def compile_typst(source: str, date: str) -> tuple[bytes, str]:
 
     The bytes are the same for the same source and date, which is written as 2026-01-31. Where the
     text is in a script that the fonts at hand lack, such as Chinese, the fonts of the system are
-    searched too. A character that no font has prints as its number, such as [U+6865], rather than
-    as an empty box, which the PDF's standards do not allow.
+    searched too. Where the places of the drawings do not settle, one moving the next, all stand
+    where they are spoken of. A character that no font has prints as its number, such as [U+6865],
+    rather than as an empty box, which the PDF's standards do not allow.
     """
-    compiled: Callable[..., bytes] = typst.compile
+    compiled: Callable[..., tuple[bytes, Sequence[Any]]] = typst.compile_with_warnings
+    inputs: dict[str, str] = {}
     options: dict[str, Any] = {
         "timestamp": datetime.datetime.fromisoformat(f"{date}T00:00:00+00:00"),
         "pdf_standards": ["a-2a", "ua-1"],
@@ -279,13 +281,17 @@ def compile_typst(source: str, date: str) -> tuple[bytes, str]:
     missing = ""
     while True:
         try:
-            return compiled(source.encode(), **options), missing
+            pdf, warnings = compiled(source.encode(), sys_inputs=inputs, **options)
+            if "settled" in inputs or not any("converge" in w.message for w in warnings):
+                return pdf, missing
+            inputs["settled"] = "yes"
+            continue
         except typst.TypstError as error:
             found = sorted(set(_undisplayed(error)) - set(missing))
             if not found:
                 raise
         if options["ignore_system_fonts"]:
-            options |= {"ignore_system_fonts": False, "sys_inputs": {"fallback": "yes"}}
+            options["ignore_system_fonts"], inputs["fallback"] = False, "yes"
         else:
             missing += "".join(found)
             source = "".join(f"[U+{ord(c):04X}]" if c in found else c for c in source)
