@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
+from pierimpact.checks import InputError
 from pierimpact.collision.averages import AverageForce, largest_average_force
 from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.simulate import simulate
@@ -56,7 +57,7 @@ class CodeEffect(NamedTuple):
 
     code: CodeForce
     height: float  #: of the clause, or else that of this calculation [m]
-    member_forces: MemberForces | None  #: None where the force acts above the column
+    member_forces: MemberForces | None  #: None where the force acts above it or on a support
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,8 +191,10 @@ class Calculation:
         column, effects = self.case.column, []
         for code in code_forces(self.case.inputs.speed, self.case.truck.mass):
             height = code.height.value if code.height else self.struck.impact_height
-            below = height < column.height
-            forces = column.struck_at(height).member_forces(code.along.value) if below else None
+            try:
+                forces = column.struck_at(height).member_forces(code.along.value)
+            except InputError:  # above the column, or where a support holds it
+                forces = None
             effects.append(CodeEffect(code, height, forces))
         return effects
 

@@ -63,7 +63,7 @@ class Codes(Section):
             ]
             if forces is None:
                 ratio = rounded(result.design_force / code.along.value, 3)
-                rows.append([code.code, *cells, "above the column", "", ratio, "", ""])
+                rows.append([code.code, *cells, "at or above the top", "", ratio, "", ""])
             else:
                 rows.append([code.code, *cells, *self._effects(forces)])
         return Table(

@@ -75,11 +75,12 @@ class MemberForces(Section):
         sentences = []
         for name, extremes in (("shear", beam.shear_extremes), ("moment", beam.moment_extremes)):
             extreme, ratio = extremes.governing, demands[name].ratio
-            place = self.shown(extreme.z, "length", given=True)
+            height = self.shown(extreme.z, "length", given=True)
+            place = "at the base" if extreme.z == beam.z[0] else f"{height} above the ground"
             time = self.shown(extreme.time, "time")
             sentences.append(
-                f"The largest {name} of the beam is at {place} above the base, {time} after first "
-                f"touch; the static one is {rounded(ratio or 0.0, 3)} times it."
+                f"The largest {name} of the beam is {place}, {time} after first touch; the static "
+                f"one is {rounded(ratio or 0.0, 3)} times it."
             )
         choice = {
             "larger": "The larger of the two governs each check.",
