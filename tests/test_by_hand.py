@@ -10,6 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from xml.etree import ElementTree
 
+import beam_reference
 import mathml
 import numpy as np
 import pytest
@@ -26,10 +27,12 @@ from pierimpact import (
     RectangularSection,
     Truck,
     design_reaction,
+    reaction_band,
     simulate,
 )
 from pierimpact.files.case import case_from
 from pierimpact.report.calculation import calculate
+from pierimpact.vehicle.truck import QUANTITIES
 
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
 SLOW_CASE = US_CASE | {  # neither engine nor cargo reaches the pier
@@ -410,34 +413,50 @@ def test_the_short_level(calculated):
 def test_member_forces_and_utilisations(calculated):
     (reaction, rounding), _ = reactions(calculated)
     names = {
-        "Support force at the base": "R_b",
-        "Support force at the top": "R_t",
-        "Moment at the base": "M_b",
-        "Moment at the impact": "M_n",
-        "Moment at the top": "M_t",
+        "Shear at the base": (1.0, "R_b"),
+        "Shear at the top": (-1.0, "R_t"),
+        "Moment at the base": (1.0, "M_b"),
+        "Moment at the impact": (1.0, "M_n"),
+        "Moment at the top": (1.0, "M_t"),
     }
     rows = calculated.numbers("tab-members")
-    for name, symbol in names.items():
+    for name, (sign, symbol) in names.items():
         share, half_of_share = calculated.values[(symbol,)]
-        _, shown, unit = rows[name]
+        _, shown, *_, unit = rows[name]
         moved = abs(reaction) * half_of_share + abs(share) * rounding
-        close(reaction * share / mathml.size(unit), shown, moved / mathml.size(unit))
-    forces = [abs(number(rows[name][1])) for name in list(names)[:2]]
-    moments = [abs(number(rows[name][1])) for name in list(names)[2:]]
-    assert number(rows["Largest shear"][1]) == max(forces)
-    assert number(rows["Largest moment"][1]) == max(moments)
+        close(sign * reaction * share / mathml.size(unit), shown, moved / mathml.size(unit))
+    for kind in ("shear", "moment"):
+        here = [rows[name] for name in names if name.startswith(kind.capitalize())]
+        _, static, beam, *_ = rows[f"Largest {kind}"]
+        assert number(static) == max(abs(number(row[1])) for row in here)
+        assert number(beam) >= max(abs(number(value)) for row in here for value in row[2:4])
     if "tab-utilisation" not in calculated.page:
         assert "The case gives no resistance" in calculated.page
         return
-    for name, (demand, resistance, _, ratio, verdict) in calculated.numbers(
+    for name, (by, demand, resistance, _, ratio, verdict) in calculated.numbers(
         "tab-utilisation"
     ).items():
-        assert demand == rows[f"Largest {name.lower()}"][1]
+        _, static, beam, *_ = rows[f"Largest {name.lower()}"]
+        assert demand == max(static, beam, key=number)
+        assert by == ("column as a beam" if demand != static else "static reaction")
         if resistance == "not given":
             assert (ratio, verdict) == ("", "not checked")
             continue
         quotient(demand, resistance, ratio)
         assert verdict == f"{'within' if number(ratio) <= 1.0 else 'exceeds'} " + "the resistance"
+
+
+def test_the_beam_of_the_example_by_finite_elements(calculated):
+    if CASES["example"]["project"] not in calculated.page:
+        return
+    case = case_from(CASES["example"])
+    speed, height = case.inputs.speed, case.inputs.impact_height
+    damping = case.inputs.damping_ratio
+    found = beam_reference.solve(case.truck, case.column, height, damping, speed, 0.06)
+    rows = calculated.numbers("tab-members")
+    for kind, values in (("shear", found.shear), ("moment", found.moment)):
+        largest = 1e-3 * np.abs(values).max()  # here it is at the base
+        assert number(rows[f"Largest {kind}"][2]) == pytest.approx(largest, rel=5e-3)
 
 
 def test_codes_at_their_own_height(calculated):
@@ -520,9 +539,30 @@ def test_the_headline_repeats_what_is_calculated(calculated):
         return
     rows = calculated.numbers("tab-utilisation")
     for name in ("shear", "moment"):
-        ratio = rows[name.capitalize()][3]
+        ratio = rows[name.capitalize()][4]
         if ratio:
             assert cells[f"Utilisation in {name}"] == ratio
+
+
+def test_the_band_is_that_of_the_printed_truck(calculated):
+    cells = dict(
+        re.findall(r'<dt>([^<]+)</dt>\s*<dd><span class="value">([^<]*)<small>', calculated.page)
+    )
+    uncertain = {
+        name: 0.3
+        for name in QUANTITIES
+        if not (name == "body_mass" and "total mass of the case" in calculated.page)
+    }
+    speed = calculated.values[("V",)][0]
+    band = reaction_band(calculated.truck, calculated.pier, speed, spread=uncertain)
+    shown = cells["Band"].replace("\u202f", "").split("–")
+    for value, text in zip(band.quantiles((0.05, 0.95)), shown, strict=True):
+        close_to_model(value, text, force_unit(calculated))
+    share = 100.0 * next(iter(band.influence.values()))
+    assert number(cells["Moved most by"]) == pytest.approx(share, abs=1.0)
+    average = calculated.numbers("tab-averages").get("Over 25 ms")
+    if average and average[0] != "none":
+        assert cells["Largest 25 ms average"].replace("\u202f", "") == average[0]
 
 
 def test_the_remarks_of_the_headline(calculated):
@@ -561,7 +601,7 @@ def test_what_does_not_come_about_or_does_not_hold_is_said_first(calculated):
     assert ("The engine does not reach" in first) == (peaks["Engine"][0] == "none")
     ratios = {}
     if "tab-utilisation" in calculated.page:
-        ratios = {name: row[3] for name, row in calculated.numbers("tab-utilisation").items()}
+        ratios = {name: row[4] for name, row in calculated.numbers("tab-utilisation").items()}
     exceeded = [name for name, text in ratios.items() if text and number(text) > 1.0]
     said = re.findall(r"The (\w+) is ([\d.]+) times the resistance", first)
     assert said == [(name.lower(), ratios[name]) for name in exceeded]

@@ -67,6 +67,7 @@ SIZES = {
     },
     "energy": {"J": 1.0, "kJ": 1e3, "MJ": 1e6},
     "speed": {"kph": 1 / 3.6, "mph": 63360 * INCH / 3600},
+    "rotational stiffness": {"N*m/rad": 1.0, "kip*ft/rad": 12e3 * POUND_FORCE * INCH},
 }  # fmt: skip
 
 
@@ -74,9 +75,14 @@ def test_every_unit_has_its_size():
     for dimension, sizes in SIZES.items():
         for unit, size in sizes.items():
             assert parse("value", f"1 {unit}", dimension) == pytest.approx(size, rel=1e-14), unit
-    known = {unit for sizes in SIZES.values() for unit in sizes}
+    known = {word for sizes in SIZES.values() for unit in sizes for word in unit_words(unit)}
     suggested = {unit for dimension in DIMENSIONS.values() for unit in dimension.units.split(", ")}
-    assert {word for unit in suggested for word in re.findall("[A-Za-z]+", unit)} <= known
+    assert {word for unit in suggested for word in unit_words(unit)} <= known
+
+
+def unit_words(unit):
+    """The units that a unit is made of."""
+    return re.findall("[A-Za-z]+", unit)
 
 
 @pytest.mark.parametrize("system", SYSTEMS)

@@ -140,6 +140,8 @@ def parameter_chunks(
         which, *arrays = np.broadcast_arrays(which, *inputs.values())
     except ValueError:
         shapes = {"truck": which.shape} | {name: x.shape for name, x in inputs.items()}
+        if not yields:  # nobody has asked for it
+            del shapes["yield_reaction"]
         listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise InputError(f"shapes must broadcast against each other, got {listed}") from None
     table = np.array([_row(item) for item in trucks]).reshape(-1, 12).T

@@ -316,7 +316,7 @@ class StruckColumn:
         impact_height = number("impact_height", self.impact_height)
         object.__setattr__(self, "impact_height", impact_height)
         column = self.column
-        base, top = column.supports
+        _, base, top, _ = column.arrangement
         # Above ground, and not where a support holds it.
         on_base = column.embedment > 0.0 or math.isfinite(base.stiffness)
         on_top = math.isfinite(top.stiffness)

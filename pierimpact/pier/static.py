@@ -16,10 +16,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from pierimpact.pier.arrangement import Arrangement, Part, Support
@@ -46,23 +45,26 @@ class Piece(NamedTuple):
     start: float  #: height where s = 0 [m]
     coefficients: tuple[float, ...]  #: of c0 + c1 s + c2 s² + c3 s³ [m/N, 1/N, …]
 
-    def deflection(self, z: Array) -> Array:
+    def deflection(self, z: float | Array) -> Array:
         """Deflection at heights within the part [m/N]."""
-        return np.asarray(polynomial.polyval(np.abs(z - self.start), self.coefficients))
+        return np.asarray(self._cubic(np.abs(z - self.start)))
+
+    def _cubic(self, s: Any) -> Any:
+        c0, c1, c2, c3 = self.coefficients
+        return c0 + s * (c1 + s * (c2 + s * c3))
 
     def ending(self, deflection: float) -> "Piece":
         """Return the same piece with this deflection where s ends, its cubic term changed."""
         *others, c3 = self.coefficients
         length = self.part.length
-        short = deflection - float(polynomial.polyval(length, self.coefficients))
+        short = deflection - self._cubic(length)
         return self._replace(coefficients=(*others, c3 + short / length**3))
 
     @property
     def square(self) -> float:
         """Integral of the squared deflection over the part [m³/N²]."""
         half = 0.5 * self.part.length
-        ordinates = self.deflection(self.part.bottom + half * (1.0 + _NODES))
-        return float(half * (_WEIGHTS @ ordinates**2))
+        return float(half * (_WEIGHTS @ self._cubic(half + half * _NODES) ** 2))
 
     @property
     def work(self) -> float:
@@ -110,8 +112,9 @@ class UnitForce:
     def mass(self) -> float:
         """Equivalent mass ∫ m̄ φ² dz + m_t φ(H)² (Eq. 1 of the source paper) [kg]."""
         squares = sum(piece.part.mass_per_length * piece.square for piece in self.pieces)
-        top = float(self.deflections(np.array(self.arrangement.parts[-1].top)))
-        squares += self.arrangement.top_mass * top**2
+        if self.arrangement.top_mass:
+            highest = self.pieces[-1]
+            squares += self.arrangement.top_mass * float(highest.deflection(highest.part.top)) ** 2
         return squares / self.deflection**2
 
 
@@ -122,22 +125,26 @@ def unit_force(arrangement: Arrangement, impact_height: float) -> UnitForce:
     # By this scale the unknowns are of the order of 1, however stiff and long the column.
     length, first = parts[-1].top - parts[0].bottom, parts[0]
     flexibility = length**3 / first.flexural_rigidity + length / first.shear_rigidity
-    scale = np.array([flexibility, flexibility / length, 1.0, length])
+    scale = (flexibility, flexibility / length, 1.0, length)
     ways = ((arrangement.base, parts[:below]), (arrangement.top, parts[below:][::-1]))
     starts = [_unknowns(support, scale) for support, _ in ways]
     ends = [
-        np.transpose([_walk(state, way)[-1] for state in start])
-        for start, (_, way) in zip(starts, ways, strict=True)
+        _walk(start, way)[-1] for pair, (_, way) in zip(starts, ways, strict=True) for start in pair
     ]
-    conditions = np.hstack((ends[0], ends[1] * [[-1.0], [1.0], [1.0], [-1.0]])) / scale[:, None]
+    # Deflection, rotation and moment pass on; the shear drops by the force.
+    signs = np.array([[1, 1, -1, -1], [1, 1, 1, 1], [1, 1, 1, 1], [1, 1, -1, -1]])
+    conditions = signs * np.transpose(ends) / np.array(scale)[:, None]
     columns = np.abs(conditions).max(axis=0)
-    rows = np.abs(conditions / columns).max(axis=1)
+    conditions /= columns
+    rows = np.abs(conditions).max(axis=1)
     drop = np.array([0.0, 0.0, 1.0, 0.0])
-    found = np.linalg.solve(conditions / columns / rows[:, None], drop / rows) / columns
-    walks = [
-        _walk(shares @ start, way)
-        for shares, start, (_, way) in zip(np.split(found, 2), starts, ways, strict=True)
-    ]
+    shares = (np.linalg.solve(conditions / rows[:, None], drop / rows) / columns).tolist()
+    walks = []
+    for (lateral, rotational), (one, other), (_, way) in zip(
+        (shares[:2], shares[2:]), starts, ways, strict=True
+    ):
+        start = [lateral * a + rotational * b for a, b in zip(one, other, strict=True)]
+        walks.append(_walk(start, way))
     below_impact, above_impact = (
         [
             _piece(part, *states, downward=downward)
@@ -163,16 +170,14 @@ def unit_force(arrangement: Arrangement, impact_height: float) -> UnitForce:
     )
 
 
-def _unknowns(support: Support, scale: Array) -> Array:
-    """Return the two states that a support allows, in rows: deflection with V, rotation with M."""
+def _unknowns(support: Support, scale: _State) -> tuple[_State, _State]:
+    """Return the two states that a support allows: of deflection and V, of rotation and M."""
     deflection, rotation, force, moment = scale
     lateral = support.stiffness * deflection / force
     rotational = support.rotation_stiffness * rotation / moment
-    return np.array(
-        [
-            (deflection / (1.0 + lateral), 0.0, force * _share(lateral), 0.0),
-            (0.0, rotation / (1.0 + rotational), 0.0, -moment * _share(rotational)),
-        ]
+    return (
+        (deflection / (1.0 + lateral), 0.0, force * _share(lateral), 0.0),
+        (0.0, rotation / (1.0 + rotational), 0.0, -moment * _share(rotational)),
     )
 
 
