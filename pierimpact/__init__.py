@@ -7,6 +7,7 @@ if TYPE_CHECKING:
     from pierimpact.checks import InputError
     from pierimpact.collision.parameters import Collision
     from pierimpact.collision.simulate import peak_reactions, simulate
+    from pierimpact.design.fit import fit_truck
     from pierimpact.design.reaction import design_reaction, design_reactions
     from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
     from pierimpact.files.trucks import load_truck
@@ -32,6 +33,7 @@ __all__ = [
     "design_reactions",
     "engine_spectrum",
     "exercises",
+    "fit_truck",
     "load_truck",
     "peak_reactions",
     "simulate",
@@ -45,6 +47,7 @@ _HOMES = {
     "checks": ["InputError"],
     "collision.parameters": ["Collision"],
     "collision.simulate": ["peak_reactions", "simulate"],
+    "design.fit": ["fit_truck"],
     "design.reaction": ["design_reaction", "design_reactions"],
     "design.spectra": ["cargo_spectrum", "engine_spectrum"],
     "files.trucks": ["load_truck"],

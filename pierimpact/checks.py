@@ -81,19 +81,29 @@ def one_line(name: str, value: str) -> str:
 
 def positive_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return `values` as an array of finite numbers above zero, of any shape."""
-    array = _finite_array(name, values)
+    array = finite_array(name, values)
     _refuse(name, array, array <= 0.0, "be positive")
     return array
 
 
 def ratio_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return `values` as an array of numbers from zero to below one, of any shape."""
-    array = _finite_array(name, values)
+    array = finite_array(name, values)
     _refuse(name, array, (array < 0.0) | (array >= 1.0), "lie from 0 to below 1")
     return array
 
 
-def _finite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+def ascending_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return `values` as an array of finite numbers in one row, each above the one before it."""
+    array = finite_array(name, values)
+    if array.ndim != 1:
+        raise InputError(f"{name} must be in one row, got shape {array.shape}")
+    _refuse(name, array, np.diff(array, prepend=-np.inf) <= 0.0, "ascend")
+    return array
+
+
+def finite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return `values` as an array of finite numbers, of any shape."""
     try:
         array = np.asarray(values, dtype=float)
     except (TypeError, ValueError):
