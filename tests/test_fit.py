@@ -148,6 +148,15 @@ def test_a_clean_record_gives_its_truck():
     assert fit.residual.share < 1e-4
 
 
+def test_a_start_far_off():
+    names = [f"{ENGINE}.plateau_length", f"{BODY}.plateau_length"]
+    truth = with_parameters(START, {names[0]: 0.25, names[1]: 3.4})
+    record = record_of(truth, noise=0.02, duration=0.3)
+    fit = fit_records([record], START, parameters=names, spread=1.0)
+    for name in names:
+        assert parameter(fit.truck, name) == pytest.approx(parameter(truth, name), rel=0.02)
+
+
 def test_the_information_of_two_records_adds_up():
     name = f"{BODY}.stiffness"
     records = [record_of(START, speed=speed, seed=int(speed)) for speed in (18.0, 25.0)]

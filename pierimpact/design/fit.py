@@ -44,8 +44,8 @@ PARAMETERS = (
 )
 #: Standard errors that must fit in the accuracy asked for; a value is off by more 3 times in 1000.
 SURE = 3.0
-_WIDEST = math.log(4.0)  # bound of r
-_DRAWS, _PLACES = 40, 19  # random trucks, and places along a parameter, from which to start
+_WIDEST = math.log(10.0)  # bound of r
+_DRAWS, _APART = 40, 0.05  # random trucks, and steps of r along a parameter, to start from
 #: Parameters that set when the spikes occur, the larger first.
 _POSITIONS = ("body_spring.plateau_length", "engine_spring.plateau_length")
 _FEW = 800  # samples of a record while looking for the best start
@@ -249,7 +249,7 @@ def fit_records(
         share = math.sqrt(covariance[index, index])
         start_value, value = parameter(start, name), parameter(truck, name)
         if name in unseen:
-            estimates[name] = Estimate(start_value, start_value, None, unseen[name])
+            estimates[name] = Estimate(start_value, value, None, unseen[name])
             continue
         reason = ""
         if SURE * share > accuracy:
@@ -393,14 +393,14 @@ class _Problem:
         turn to where the forces come closest; they set when the spikes occur.
         """
         random = np.random.default_rng(_SEED)
-        reach = 1.5 * self.spread
+        reach = min(1.5 * self.spread, 0.9 * _WIDEST)
         draws = random.uniform(-reach, reach, (_DRAWS, len(self.names)))
-        places = np.linspace(-reach, reach, _PLACES)
+        places = np.linspace(-reach, reach, math.ceil(2.0 * reach / _APART))
         starts = [np.zeros(len(self.names)), min(draws, key=lambda r: self.badness(r, np.cumsum))]
         for r in starts:
             for name in _POSITIONS:
                 if name in self.names:
-                    moved = np.tile(r, (_PLACES, 1))
+                    moved = np.tile(r, (len(places), 1))
                     moved[:, self.names.index(name)] = places
                     r[:] = min(moved, key=self.badness)
         return starts
