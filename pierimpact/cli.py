@@ -160,7 +160,12 @@ def _fit(options: argparse.Namespace) -> int:
         first_touch=_given(options, "first_touch", "time") or 0.0,
     )
     output, figure = (Path(path) if path else None for path in (options.output, options.figure))
-    drawing = figure and _figure_format(figure)
+    if figure:
+        drawing = one_of("the ending of --figure", figure.suffix[1:].lower(), ("pdf", "png", "svg"))
+        try:
+            from pierimpact.plots.fit import draw_fit
+        except ModuleNotFoundError as error:
+            return _needs("figures", error)
     for path in (output, figure):
         if path and not path.parent.is_dir():
             raise InputError(f"{path} cannot be written to: there is no folder {path.parent}")
@@ -180,11 +185,7 @@ def _fit(options: argparse.Namespace) -> int:
     if output:
         contents[output] = fitted.truck_file.encode()
     if figure:
-        try:
-            from pierimpact.plots.fit import draw_fit
-        except ModuleNotFoundError as error:
-            return _needs("figures", error)
-        contents[figure] = draw_fit(fitted.fit, "SI", str(drawing))
+        contents[figure] = draw_fit(fitted.fit, "SI", drawing)
     write_files(contents)
     print(fit_table(fitted.fit))
     if contents:
@@ -196,10 +197,6 @@ def _given(options: argparse.Namespace, name: str, dimension: str) -> float | No
     """Return an option in SI units, or None where it is not given."""
     text = getattr(options, name)
     return None if text is None else parse(f"--{name.replace('_', '-')}", text, dimension)
-
-
-def _figure_format(path: Path) -> str:
-    return one_of("the ending of --figure", path.suffix.lower().lstrip("."), ("pdf", "png", "svg"))
 
 
 def _piers(options: argparse.Namespace) -> list[EquivalentPier | None]:

@@ -496,4 +496,4 @@ def _together(index: int, names: Sequence[str], covariance: Array) -> str:
     closest = int(np.argmax(others))
     if others[closest] < _TOGETHER:
         return ""
-    return f", and mainly together with the {BY_KEY[names[closest]].meaning}"
+    return f"; it can hardly be told apart from the {BY_KEY[names[closest]].meaning}"

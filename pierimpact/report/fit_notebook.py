@@ -21,7 +21,7 @@ def noisy_record(
     speed: float,
     pier: EquivalentPier | None = None,
     quantity: str = "contact force",
-    noise: float = 0.05,
+    noise: float = 0.02,
     seed: int = 1,
 ) -> Record:
     """Return what a truck would leave in a record by the model, with noise.
