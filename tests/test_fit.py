@@ -201,8 +201,9 @@ def test_a_filter_longer_than_the_first_spike_hides_the_engines_stiffness():
 
 
 def test_an_average_longer_than_the_first_spike_hides_it_too():
-    record = record_of(truck_about(4), noise=0.0, window=0.01)
     names = ["engine_mass", f"{ENGINE}.stiffness", f"{ENGINE}.plateau_length"]
+    truth = with_parameters(START, dict(zip(names, (800.0, 180e6, 0.55), strict=True)))
+    record = record_of(truth, noise=0.005, window=0.01)
     fit = fit_records([record], START, parameters=names)
     assert "moving average" in fit.not_identified[f"{ENGINE}.stiffness"]
     assert fit.truck.engine_spring.stiffness == START.engine_spring.stiffness
@@ -218,6 +219,32 @@ def test_without_cargo_contact_the_cargo_does_not_show():
     for name in ("stiffness", "plateau_length"):
         assert fit.not_identified[f"{BODY}.{name}"].startswith("the cargo does not reach the pier")
         assert getattr(fit.truck.body_spring, name) == getattr(start.body_spring, name)
+
+
+def test_a_contact_that_noise_could_be_does_not_count():
+    # The engine stops 0.1 mm before it would reach the pier, or 0.1 mm after it has.
+    name = f"{ENGINE}.plateau_length"
+    record = record_of(START, speed=12.0, noise=0.1)
+    reached = float(record.collision(with_parameters(START, {name: 9.0})).engine_crush.max())
+    for length in (reached - 1e-4, reached + 1e-4):
+        truth = with_parameters(START, {name: length})
+        fit = fit_records([record_of(truth, speed=12.0, noise=0.1)], truth, parameters=[name])
+        assert "does not" in fit.not_identified[name]
+        assert fit.truck.engine_spring.plateau_length == length
+
+
+def test_a_plateau_shorter_than_the_crush_does_not_come_back():
+    name = f"{BODY}.plateau_length"
+    truth = with_parameters(START, {name: 2.4})
+    record = record_of(truth, speed=16.0)
+    assert record.collision(truth).cargo_contact_time is None
+    start = with_parameters(START, {name: 1.2})
+    fit = fit_records([record], start, parameters=[name, f"{BODY}.plateau_force"])
+    assert fit.not_identified[name].endswith("its plateau is longer than at the start")
+    history = record.collision(truth)
+    crush = np.max(history.body_crush[history.time <= record.time[-1]])
+    assert fit.truck.body_spring.plateau_length > 0.99 * crush
+    assert fit.residual.share == pytest.approx(0.05, rel=0.15)
 
 
 def test_a_record_that_ends_early_shows_no_unloading():

@@ -45,10 +45,11 @@ PARAMETERS = (
 #: Standard errors that must fit in the accuracy asked for; a value is off by more 3 times in 1000.
 SURE = 3.0
 _WIDEST = math.log(10.0)  # bound of r
+_NEVER = math.log(1e3)  # r of a plateau that no crush comes to the end of
 _DRAWS, _APART = 40, 0.05  # random trucks, and steps of r along a parameter, to start from
 #: Parameters that set when the spikes occur, the larger first.
 _POSITIONS = ("body_spring.plateau_length", "engine_spring.plateau_length")
-_FEW = 800  # samples of a record while looking for the best start
+_FEW = 2000  # samples of a record while looking for the best start
 _SEED = 0
 _CHANGE, _ASIDE = 1e-6, 1e-4  # of r, for derivatives, and to leave the corners
 _GAIN = 0.5  # share of the spread that the error of a parameter shown does not exceed
@@ -59,7 +60,7 @@ class Estimate(NamedTuple):
     """What a fit says about one parameter, in SI units."""
 
     start: float
-    value: float  #: as fitted, or the start where the records do not show the parameter
+    value: float  #: as fitted; the start where the records do not show the parameter but allow it
     standard_error: float | None  #: None where the records do not show it
     reason: str  #: why the parameter does not count as identified; empty if it does
 
@@ -103,8 +104,9 @@ class TruckFit:
     def not_identified(self) -> dict[str, str]:
         """Parameters that do not count as identified, with the reasons.
 
-        Those without a standard error stay at their start; the others show, but only roughly, and
-        are in `truck` as fitted.
+        Those without a standard error do not show: they stay at their start, or, for a plateau
+        that is shorter there than the crush without a contact, at a length that is possible. The
+        others show roughly, and are in `truck` as fitted.
         """
         return {name: e.reason for name, e in self.estimates.items() if e.reason}
 
@@ -231,16 +233,28 @@ def fit_records(
     problem = replace(problem, strides=[1] * len(records))
     for _ in range(2):  # the second time with the noise that the first has found
         r, noise = problem.solve([r], noise)
-    unseen = _unseen([(record, record.collision(problem.truck(r))) for record in records])
     covariance = problem.covariance(r, noise)
+    unseen = problem.unseen(r, noise)
     for index, name in enumerate(names):
         if name not in unseen and covariance[index, index] > (_GAIN * spread) ** 2:
             unseen[name] = "the record hardly shows it" + _together(index, names, covariance)
     shown = np.array([name not in unseen for name in names])
-    if not shown.all():
-        few = replace(problem, names=tuple(name for name in names if name not in unseen))
-        r = np.where(shown, r, 0.0)
+    if unseen:
+        back = np.where(shown, r, 0.0)
+        for index, name in enumerate(names):
+            alone = np.where(np.arange(len(r)) == index, 0.0, r)
+            plateau = name in unseen and name.endswith("plateau_length")
+            if plateau and problem.refuted(alone, r, noise):
+                # The crush goes farther than that, and no contact shows.
+                back[index] = r[index]
+                unseen[name] += "; its plateau is longer than at the start"
+        r = back
         if shown.any():
+            few = replace(
+                problem,
+                start=problem.truck(np.where(shown, 0.0, r)),
+                names=tuple(name for name in names if name not in unseen),
+            )
             r[shown], noise = few.solve([r[shown]], noise)
         covariance = problem.covariance(r, noise)
     truck = problem.truck(r)
@@ -385,6 +399,29 @@ class _Problem:
         _, size, directions = np.linalg.svd(np.concatenate(rows), full_matrices=False)
         return np.asarray((directions.T / size**2) @ directions, dtype=float)
 
+    def refuted(self, other: Array, r: Array, noise: Sequence[float]) -> bool:
+        """Say whether another r is worse than this one by more than `SURE` standard errors."""
+        sums = [
+            [float(left @ left) / s**2 for left, s in zip(self.left(x), noise, strict=True)]
+            for x in (other, r)
+        ]
+        return sum(sums[0]) - sum(sums[1]) > SURE**2
+
+    def unseen(self, r: Array, noise: Sequence[float]) -> dict[str, str]:
+        """Return the parameters that no record shows, with the reasons."""
+        truck = self.truck(r)
+        reasons = [_unseen_in(record, record.collision(truck)) for record in self.records]
+        unseen = {name: reasons[0][name] for name in set.intersection(*map(set, reasons))}
+        for spring, body in _SPRINGS.items():
+            length, stiffness = f"{spring}.plateau_length", f"{spring}.stiffness"
+            if length in unseen or length not in self.names:
+                continue
+            never = np.where(np.array(self.names) == length, _NEVER, r)
+            if not self.refuted(never, r, noise):
+                reason = f"the record does not tell whether the {body} reaches the pier"
+                unseen |= {length: reason, stiffness: reason}
+        return unseen
+
     def starts(self) -> list[Array]:
         """Return starts in which the spikes lie where the records have them.
 
@@ -423,12 +460,6 @@ def _noise(left: Array, force: Array, fitted: int) -> float:
             break
         correlation += rho
     return math.sqrt(variance * (1.0 + 2.0 * correlation))
-
-
-def _unseen(found: Sequence[tuple[Record, CollisionHistory]]) -> dict[str, str]:
-    """Return the parameters that none of the records shows, with the reasons."""
-    reasons = [_unseen_in(record, history) for record, history in found]
-    return {name: reasons[0][name] for name in set.intersection(*map(set, reasons))}
 
 
 def _unseen_in(record: Record, history: CollisionHistory) -> dict[str, str]:

@@ -62,6 +62,9 @@ def _entry(entry: Parameter, fit: TruckFit, of: str) -> list[str]:
             f"fitted to {of}, standard error {100.0 * share:.1f} %",
             Certainty.CALIBRATED,
         )
+    elif estimate is not None and estimate.value != estimate.start:
+        value = _in_unit(estimate.value, unit, kind)
+        source, status = f"not identified in {of}: {estimate.reason}", Certainty.CALIBRATED
     elif estimate is not None:
         source += f"; not identified, left at its start: {estimate.reason}"
     return [f"value = {value}", f"unit = {_text(unit)}", *_whence(source, status)]

@@ -145,7 +145,9 @@ def fit_rows(fit: TruckFit) -> list[tuple[str, str, str, str, str]]:
             for x in (estimate.start, estimate.value)
         )
         if estimate.standard_error is None:
-            rows.append((symbol.heading, start, "–", "–", f"left at its start: {estimate.reason}"))
+            stays = estimate.value == estimate.start
+            remark = f"left at its start: {estimate.reason}" if stays else estimate.reason
+            rows.append((symbol.heading, start, "–" if stays else value, "–", remark))
             continue
         error = f"{100.0 * estimate.standard_error / estimate.value:.1f} %"
         rows.append((symbol.heading, start, value, error, estimate.reason or "identified"))
