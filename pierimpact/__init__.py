@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from pierimpact.collision.parameters import Collision
     from pierimpact.collision.simulate import peak_reactions, simulate
     from pierimpact.design.band import reaction_band
+    from pierimpact.design.fit import fit_truck
     from pierimpact.design.reaction import design_reaction, design_reactions
     from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
     from pierimpact.files.trucks import load_truck
@@ -56,6 +57,7 @@ __all__ = [
     "design_reactions",
     "engine_spectrum",
     "exercises",
+    "fit_truck",
     "load_truck",
     "maps",
     "peak_reactions",
@@ -72,6 +74,7 @@ _HOMES = {
     "collision.parameters": ["Collision"],
     "collision.simulate": ["peak_reactions", "simulate"],
     "design.band": ["reaction_band"],
+    "design.fit": ["fit_truck"],
     "design.reaction": ["design_reaction", "design_reactions"],
     "design.spectra": ["cargo_spectrum", "engine_spectrum"],
     "files.trucks": ["load_truck"],

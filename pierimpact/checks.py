@@ -113,7 +113,7 @@ def one_line(name: str, value: str) -> str:
 
 def positive_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return `values` as an array of finite numbers above zero, of any shape."""
-    array = _finite_array(name, values)
+    array = finite_array(name, values)
     _refuse(name, array, array <= 0.0, "be positive")
     return array
 
@@ -127,8 +127,17 @@ def positive_or_infinite_array(name: str, values: ArrayLike) -> NDArray[np.float
 
 def ratio_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return `values` as an array of numbers from zero to below one, of any shape."""
-    array = _finite_array(name, values)
+    array = finite_array(name, values)
     _refuse(name, array, (array < 0.0) | (array >= 1.0), "lie from 0 to below 1")
+    return array
+
+
+def ascending_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return `values` as an array of finite numbers in one row, each above the one before it."""
+    array = finite_array(name, values)
+    if array.ndim != 1:
+        raise InputError(f"{name} must be in one row, got shape {array.shape}")
+    _refuse(name, array, np.diff(array, prepend=-np.inf) <= 0.0, "ascend")
     return array
 
 
@@ -139,7 +148,8 @@ def _array(name: str, values: ArrayLike) -> NDArray[np.float64]:
         raise InputError(f"{name} must be an array of numbers, got {values!r:.60}") from None
 
 
-def _finite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+def finite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return `values` as an array of finite numbers, of any shape."""
     array = _array(name, values)
     _refuse(name, array, ~np.isfinite(array), "be finite")
     return array

@@ -2,11 +2,16 @@
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
 
 import pierimpact
-from pierimpact.checks import InputError
+from pierimpact.checks import InputError, one_of
+from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.teaching.launch import DEFAULT_FOLDER, TeachError, open_notebooks
+from pierimpact.units import parse
 
 _REPORT = """\
 Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
@@ -19,12 +24,24 @@ failed; 130 if interrupted, which leaves complete files only.
 """
 
 
+_FIT = """\
+Fit the crush-law parameters of a truck to force records, measured or from finite elements. A
+record is a CSV file with a heading such as: time [ms], contact force [kN]; the force may also be
+the reaction. Total mass, speed and pier count as known; without a pier it is rigid. Printed is
+every parameter with its start, its fitted value with the standard error, and what the records do
+not show: that stays at its start.
+"""
+_FIT_EXIT_CODES = "Exit code: 0 if a truck was fitted; 2 if the input is bad; 1 if anything failed."
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code: 2 for bad input, 1 for any other failure."""
     options = _parser().parse_args(arguments)
     try:
         if options.command == "teach":
             return _teach(options.app, options.folder, options.browser)
+        if options.command == "fit":
+            return _fit(options)
         return _report(options.cases, options.output)
     except InputError as error:
         _complain(error)
@@ -74,7 +91,158 @@ def _parser() -> argparse.ArgumentParser:
     teach.add_argument(
         "--no-browser", dest="browser", action="store_false", help="do not open a browser"
     )
+    _add_fit(commands)
     return parser
+
+
+def _add_fit(commands: Any) -> None:
+    fit = commands.add_parser(
+        "fit",
+        help="fit a truck to force records",
+        description=_FIT,
+        epilog=_FIT_EXIT_CODES,
+        allow_abbrev=False,
+    )
+    fit.add_argument("records", metavar="RECORD.csv", nargs="+", help="force records")
+    once = "; once for all records, or once for each"
+    options: dict[str, dict[str, Any]] = {
+        "speed": {
+            "metavar": "SPEED", "action": "append", "required": True,
+            "help": f'speed at first touch, such as "80 km/h"{once}',
+        },
+        "start": {
+            "metavar": "TRUCK", "default": "single-unit-8t",
+            "help": "truck to start from: a name of the catalogue or a truck file "
+            "(default: %(default)s)",
+        },
+        "mass": {"metavar": "MASS", "help": "total mass of the truck (default: that of the start)"},
+        "case": {
+            "metavar": "CASE.yaml", "action": "append", "help": f"case file of the pier{once}",
+        },
+        "pier-mass": {"metavar": "MASS", "help": "equivalent mass of the pier"},
+        "pier-stiffness": {"metavar": "STIFFNESS", "help": "its stiffness at the impact height"},
+        "damping-ratio": {
+            "metavar": "RATIO", "type": float, "help": "its damping ratio (default: 0.05)",
+        },
+        "filter": {
+            "metavar": "FREQUENCY",
+            "help": 'low-pass filter for records and model alike: cut-off, such as "180 Hz"',
+        },
+        "filtered": {
+            "metavar": "FREQUENCY",
+            "help": "cut-off of a low-pass filter that the records have passed already",
+        },
+        "average": {
+            "metavar": "TIME", "help": 'moving average that the records are, such as "10 ms"',
+        },
+        "first-touch": {
+            "metavar": "TIME", "help": "time of first touch in the records (default: 0 ms)",
+        },
+        "accuracy": {
+            "metavar": "SHARE", "type": float, "default": 0.05,
+            "help": "a parameter counts as identified if three standard errors are at most this "
+            "share of its value (default: %(default)s)",
+        },
+        "output": {"metavar": "TRUCK.toml", "help": "truck file to write"},
+        "figure": {"metavar": "FILE", "help": "figure to write: .pdf, .png or .svg"},
+    }  # fmt: skip
+    for name, option in options.items():
+        fit.add_argument(f"--{name}", **option)
+
+
+def _fit(options: argparse.Namespace) -> int:
+    from pierimpact.report.fit import Treatment, fit_files, fit_table, write_files
+
+    treatment = Treatment(
+        filter=_given(options, "filter", "frequency"),
+        cutoff=_given(options, "filtered", "frequency"),
+        window=_given(options, "average", "time"),
+        first_touch=_given(options, "first_touch", "time") or 0.0,
+    )
+    output, figure = (Path(path) if path else None for path in (options.output, options.figure))
+    if figure:
+        drawing = one_of("the ending of --figure", figure.suffix[1:].lower(), ("pdf", "png", "svg"))
+        try:
+            from pierimpact.plots.fit import draw_fit
+        except ModuleNotFoundError as error:
+            return _needs("figures", error)
+    for path in (output, figure):
+        if path and not path.parent.is_dir():
+            raise InputError(f"{path} cannot be written to: there is no folder {path.parent}")
+    with _progress("collisions") as progress:
+        fitted = fit_files(
+            options.records,
+            [parse("--speed", text, "speed") for text in options.speed],
+            _piers(options),
+            start=options.start,
+            mass=_given(options, "mass", "mass"),
+            treatment=treatment,
+            accuracy=options.accuracy,
+            name=output.stem if output else "fitted",
+            progress=progress,
+        )
+    contents: dict[Path, bytes] = {}
+    if output:
+        contents[output] = fitted.truck_file.encode()
+    if figure:
+        contents[figure] = draw_fit(fitted.fit, "SI", drawing)
+    write_files(contents)
+    print(fit_table(fitted.fit))
+    if contents:
+        print(*contents, sep="\n")
+    return 0
+
+
+def _given(options: argparse.Namespace, name: str, dimension: str) -> float | None:
+    """Return an option in SI units, or None where it is not given."""
+    text = getattr(options, name)
+    return None if text is None else parse(f"--{name.replace('_', '-')}", text, dimension)
+
+
+def _piers(options: argparse.Namespace) -> list[EquivalentPier | None]:
+    """Return the piers of the records, or the one of all; None is rigid."""
+    mass = _given(options, "pier_mass", "mass")
+    stiffness = _given(options, "pier_stiffness", "stiffness")
+    damping = options.damping_ratio
+    if options.case:
+        if (mass, stiffness, damping) != (None, None, None):
+            raise InputError("--case has the pier: leave out --pier-mass and the others of a pier")
+        return [_pier_of(path) for path in options.case]
+    if (mass is None) != (stiffness is None):
+        raise InputError("--pier-mass and --pier-stiffness go together")
+    if mass is None or stiffness is None:
+        if damping is not None:
+            raise InputError("--damping-ratio belongs to a pier: give --pier-mass and the others")
+        return [None]
+    damping = 0.05 if damping is None else damping
+    return [EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=damping)]
+
+
+def _pier_of(path: str) -> EquivalentPier:
+    from pierimpact.files.case import read_case_file
+
+    case = read_case_file(path).case
+    height, *more = case.impact_heights
+    if more:
+        raise InputError(f"{path}: impact_height must be a length for a fit, got 'auto'")
+    return case.column.equivalent(height, case.inputs.damping_ratio)
+
+
+@contextmanager
+def _progress(unit: str) -> Iterator[Callable[[int], object]]:
+    """Give the update of a progress bar on a terminal, where tqdm is installed."""
+    try:
+        from tqdm import tqdm
+    except ModuleNotFoundError:
+        yield lambda count: None
+        return
+    with tqdm(unit=f" {unit}", disable=None, leave=False) as bar:
+        yield bar.update
+
+
+def _needs(what: str, error: ModuleNotFoundError) -> int:
+    _complain(f"{what} need {error.name}: pip install 'pierimpact[report]'")
+    return 1
 
 
 def _teach(app: bool, folder: str, browser: bool) -> int:
@@ -89,8 +257,7 @@ def _report(paths: Sequence[str], output: str) -> int:
     try:
         from pierimpact.report.batch import find_cases, write_reports
     except ModuleNotFoundError as error:
-        _complain(f"reports need {error.name}: pip install 'pierimpact[report]'")
-        return 1
+        return _needs("reports", error)
     cases = find_cases(paths)
     batch = write_reports(cases, output)
     for report in batch.reports:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.collision.coasting import coasting_position, free_vibration
 from pierimpact.collision.parameters import Collision
 from pierimpact.collision.regimes import LinearMotion, Position, State
-from pierimpact.collision.series import ARRAYS, FLOATS, TERMS
+from pierimpact.collision.series import ARRAYS, FLOATS, TERMS, weights_of_all
 from pierimpact.collision.stepping import BODY, ENGINE, PIER, expand, longest_step, rates
 from pierimpact.collision.yielding import Yielding
 from pierimpact.pier.equivalent import EquivalentPier
@@ -226,6 +226,46 @@ class CollisionHistory:
         """Force of the truck on the pier, F1 + F2 (+ F_f if friction acts on the pier) [N]."""
         force = self.engine_force + self.body_force
         return force + self.friction_force if self._friction_on_pier else force
+
+    def contact_force_at(self, time: ArrayLike) -> Array:
+        """Return the contact force at times after first touch, from the pieces themselves [N].
+
+        Parameters
+        ----------
+        time : array_like, shape (n,)
+            The times [s]. Before first touch there is no force; after the end of the history it
+            stays as it was there.
+        """
+        motion, line, stuck = self._at(time)
+        engine = line.intercept1 + line.slope1 * motion(ENGINE)
+        body = line.intercept2 + line.slope2 * motion(BODY)
+        force = engine + body
+        if self._friction_on_pier:
+            held = -body - self.truck.body_mass * motion(PIER, 2)
+            force = force + line.friction + stuck * held
+        return np.where(np.asarray(time) >= 0.0, force, 0.0)
+
+    def reaction_at(self, time: ArrayLike) -> Array:
+        """Return the reaction at times, as `contact_force_at`."""
+        motion, *_ = self._at(time)
+        limit = self.pier.yield_reaction
+        reaction = np.clip(self.pier.stiffness * motion(PIER), -limit, limit)
+        return np.where(np.asarray(time) >= 0.0, reaction, 0.0)
+
+    def _at(self, time: ArrayLike) -> tuple[Callable[..., Array], LinearMotion, Array]:
+        """Return motions by which and order, their equations, and whether the body sticks."""
+        starts, lengths = self._column(lambda state: state.time)[:, 0], self._lengths[:, 0]
+        piece = np.clip(np.searchsorted(starts, time, side="right") - 1, 0, None)
+        fraction = np.clip((np.asarray(time) - starts[piece]) / lengths[piece], 0.0, 1.0)
+        weights = weights_of_all(fraction)
+
+        def motion(which: int, order: int = 0) -> Array:
+            terms = self._terms[which][piece, order:]
+            rate = np.einsum("nk,kn->n", terms, weights[: terms.shape[1]])
+            return np.asarray(rate / lengths[piece] ** order)
+
+        line = LinearMotion(*(column[piece, 0] for column in self._motion))
+        return motion, line, self._column(lambda state: state.stuck)[piece, 0]
 
     @cached_property
     def impulse(self) -> Array:

@@ -1,0 +1,166 @@
+"""Force records: a CSV file of times and forces, whose heading names quantities and units."""
+
+import csv
+import hashlib
+import io
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pierimpact.checks import InputError, brief, did_you_mean
+from pierimpact.collision.records import FEWEST, QUANTITIES
+from pierimpact.units import parse
+
+Array = NDArray[np.float64]
+
+_HEADING = re.compile(r"\s*(.*?)\s*\[\s*(.*?)\s*\]\s*")
+_EXAMPLE = "such as: time [ms], contact force [kN]"
+_DIMENSIONS = {"time": "time"} | dict.fromkeys(QUANTITIES, "force")
+_GAP = 10.0  # times the usual step, from which one is a gap
+_DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RecordFile:
+    """What a file of a force record says."""
+
+    name: str  #: without its folder
+    sha256: str  #: of the file's bytes, in hexadecimal
+    quantity: str  #: "contact force" or "reaction"
+    time: Array  #: shape (n,) [s]
+    force: Array  #: shape (n,), compression positive [N]
+
+
+def read_record_file(path: str | Path) -> RecordFile:
+    """Return the record of a CSV file.
+
+    The first line that is neither empty nor a comment (#) is the heading; it names the time and one
+    of "contact force" and "reaction", each with its unit in brackets. Numbers have decimal points,
+    columns are parted by commas, semicolons or tabs.
+
+    Raises
+    ------
+    InputError
+        When the file cannot be read or breaks a rule; the message is one line and names the row.
+    """
+    path = Path(path)
+    try:
+        content = path.read_bytes()
+        quantity, time, force = _columns(content.decode("utf-8-sig"))
+    except OSError as error:
+        raise InputError(f"{path.name}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path.name}: is not UTF-8 text") from None
+    except InputError as error:
+        raise InputError(f"{path.name}: {error}") from None
+    sha256 = hashlib.sha256(content).hexdigest()
+    return RecordFile(name=path.name, sha256=sha256, quantity=quantity, time=time, force=force)
+
+
+def _columns(text: str) -> tuple[str, Array, Array]:
+    """Return the quantity, times [s] and forces [N] of a file's text."""
+    lines = [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if not lines:
+        raise InputError(f"must have a heading, {_EXAMPLE}; got nothing")
+    (first, heading), *rest = lines
+    separator = next((mark for mark in ";\t" if mark in heading), ",")
+    names, sizes = _heading(first, _cells(heading, separator))
+    rows = [(number, _numbers(number, line, separator, names)) for number, line in rest]
+    if len(rows) < FEWEST:
+        raise InputError(f"must have at least {FEWEST} rows of numbers, got {len(rows)}")
+    values = np.array([row for _, row in rows]) * sizes
+    places = [number for number, _ in rows]
+    column = names.index("time")
+    time, force = values[:, column], values[:, 1 - column]
+    _check_times(time, places)
+    if not np.max(force) > max(force[0], 0.0):
+        largest = values[:, 1 - column].max() / sizes[1 - column]
+        raise InputError(
+            f"there is no impact in it: {names[1 - column]} (compression is positive) never rises, "
+            f"its largest value is {largest:g}"
+        )
+    return names[1 - column], time, force
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    return next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True))
+
+
+def _heading(row: int, cells: list[str]) -> tuple[list[str], Array]:
+    """Return the names of the two columns and the sizes of their units in SI."""
+    names, sizes = [], []
+    for cell in cells:
+        match = _HEADING.fullmatch(cell)
+        if match is None:
+            raise InputError(
+                f"row {row}: the heading must name each quantity with its unit, {_EXAMPLE}; "
+                f"got {brief(cell)}"
+            )
+        name, unit = match[1].lower(), match[2]
+        if name not in _DIMENSIONS:
+            raise InputError(
+                f"row {row}: {brief(match[1])} is not one of {', '.join(_DIMENSIONS)}"
+                f"{did_you_mean(name, _DIMENSIONS)}"
+            )
+        try:
+            sizes.append(parse(name, f"1 {unit}", _DIMENSIONS[name]))
+        except InputError as error:
+            raise InputError(f"row {row}: {error}") from None
+        names.append(name)
+    if len(names) != 2 or names.count("time") != 1:
+        raise InputError(
+            f"row {row}: the heading must name time and one force, {_EXAMPLE}; "
+            f"got {', '.join(names)}"
+        )
+    return names, np.array(sizes)
+
+
+def _numbers(row: int, line: str, separator: str, names: list[str]) -> list[float]:
+    """Return the numbers of a row."""
+    cells = _cells(line, separator)
+    if len(cells) != len(names):
+        hint = ""
+        if separator == "," and len(cells) == 2 * len(names):
+            hint = "; write decimals with a point, or part the columns by semicolons"
+        raise InputError(f"row {row}: must have {len(names)} columns, got {len(cells)}{hint}")
+    numbers = []
+    for name, cell in zip(names, cells, strict=True):
+        if not cell.strip():
+            raise InputError(f"row {row}: {name} is blank")
+        try:
+            number = float(cell)
+        except ValueError:
+            hint = ": write decimals with a point" if _DECIMAL_COMMA.fullmatch(cell) else ""
+            raise InputError(
+                f"row {row}: {name} must be a number, got {brief(cell)}{hint}"
+            ) from None
+        if not math.isfinite(number):
+            raise InputError(f"row {row}: {name} must be finite, got {cell.strip()}")
+        numbers.append(number)
+    return numbers
+
+
+def _check_times(time: Array, places: list[int]) -> None:
+    """Refuse times that do not ascend or leave a gap; `places` are the rows they are from."""
+    steps = np.diff(time)
+    if np.any(steps <= 0.0):
+        here = int(np.argmax(steps <= 0.0))
+        raise InputError(
+            f"row {places[here + 1]}: time must ascend, "
+            f"{1e3 * time[here + 1]:g} ms follows {1e3 * time[here]:g} ms"
+        )
+    usual = float(np.median(steps))
+    if np.max(steps) > _GAP * usual:
+        here = int(np.argmax(steps > _GAP * usual))
+        raise InputError(
+            f"row {places[here + 1]}: there is a gap of {1e3 * steps[here]:.4g} ms before it, "
+            f"where the usual step is {1e3 * usual:.4g} ms"
+        )
