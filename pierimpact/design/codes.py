@@ -92,7 +92,7 @@ def jtg_d60() -> CodeForce:
     )
 
 
-#: Road classes of EN 1991-1-7 Table 4.1, with forces along and across the travel [N].
+#: Road classes of EN 1991-1-7 Table 4.1, with forces along and across the travel, from memory [N].
 ROAD_CLASSES = {
     "motorway": (1000e3, 500e3),
     "country": (750e3, 375e3),
