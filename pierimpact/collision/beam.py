@@ -40,6 +40,7 @@ from pierimpact.pier.beam import BeamPier
 
 Array: TypeAlias = NDArray[np.float64]
 
+# Numerical settings.
 DOUBLINGS = 4  # of the number of steps taken together, from one on
 FEWEST_MOVING = 8  # shapes that are always followed
 STILL = 1e-26  # share of the energy below which the vibration of a shape has died out

@@ -22,6 +22,7 @@ UPPER, LOWER, TURN = range(3)  # the crush leaves its line, or turns back
 FORWARD, BACKWARD = 6, 7  # the body comes to rest, or begins to slide
 NO_EVENT = -1
 
+# Numerical settings.
 NO_BOUND = 1e9  # stands for a bound that is never reached, without the NaN of ∞ − ∞
 PEAK_TOLERANCE = 1e-13  # relative: a later maximum must exceed a peak by this to replace it
 
@@ -192,7 +193,7 @@ def linear_motion(parameters: Parameters, state: State, ops: Ops) -> LinearMotio
     if state.yielding is None:
         return motion
     direction, yields = state.yielding.direction, state.yielding.direction != 0.0
-    # Ten times as long as it takes to crush the truck at its speed: round-off stays small.
+    # Numerical, so that round-off stays small: ten times as long as it takes to crush the truck.
     length = parameters.engine.plateau_length + parameters.body.plateau_length
     rate = 0.1 * parameters.speed / length
     return motion._replace(

@@ -20,6 +20,7 @@ Real: TypeAlias = Any  # a float, or an array of shape (n,)
 Flag: TypeAlias = Any  # a bool, or an array of shape (n,)
 Terms: TypeAlias = Any  # a list of floats, or an array of shape (terms, n)
 
+# Numerical settings.
 TERMS = 30
 PHASE = 3.0  # largest ω h of a step [rad]; the first term left out is PHASE**28/28! = 8e-17
 PARTS = 2  # of a step; in each, the curvature of a quantity changes its sign at most once
@@ -76,7 +77,7 @@ def weights_of_all(theta: Real, count: int = TERMS) -> Terms:
 
 def terms_needed(part: float) -> int:
     """Return how many terms a step takes that is a part of the longest."""
-    return 10 + math.ceil(20.0 * math.sqrt(part))
+    return 10 + math.ceil(20.0 * math.sqrt(part))  # numerical; TERMS for a whole one
 
 
 NODES = [weights_of_one(part / PARTS) for part in range(PARTS + 1)]

@@ -18,7 +18,7 @@ from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
 
-SHORTEST = 1e-13  # step recorded; shorter ones are round-off [s]
+SHORTEST = 1e-13  # numerical: step recorded; shorter ones are round-off [s]
 
 
 def simulate(

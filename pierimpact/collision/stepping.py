@@ -59,6 +59,7 @@ from pierimpact.collision.yielding import (
 ENGINE, BODY, PIER = range(3)  # order of δ1, δ2 and x_p in a series
 PIER_EXTREME = 8  # of its displacement: an event, but not a change of regime
 
+# Numerical settings.
 TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative to its scale
 HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
 HARDLY = 1e-11  # relative to the largest displacement of the pier

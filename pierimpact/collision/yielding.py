@@ -12,7 +12,7 @@ from pierimpact.collision.series import Flag, Ops, Real
 # Events: the spring begins to yield in the direction of travel or against it, or the pier turns.
 YIELDS_FORWARD, YIELDS_BACKWARD, YIELDING_ENDS = 9, 10, 11
 
-ROUND_OFF = 1e-12  # relative: an undamped pier that has yielded swings as far again
+ROUND_OFF = 1e-12  # numerical, relative: an undamped pier that has yielded swings as far again
 
 
 class Yielding(NamedTuple):

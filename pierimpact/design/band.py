@@ -28,7 +28,8 @@ from pierimpact.vehicle.truck import QUANTITIES, Truck
 Array: TypeAlias = NDArray[np.float64]
 T = TypeVar("T")
 
-#: Shares of all collisions whose reaction lies below the ends and the middle of a band.
+#: Shares of all collisions whose reaction lies below the ends and the middle of a band: this
+#: project's choice.
 LEVELS = (0.05, 0.5, 0.95)
 #: What may carry a spread: the numbers of a truck, and the speed.
 UNCERTAIN = (*QUANTITIES, "speed")

@@ -58,7 +58,8 @@ def aashto_lrfd() -> CodeForce:
         height=Sourced(1.5, Certainty.CITED),
         note="Based on two full-scale tests. Quoted in kip by the source paper; other units are "
         "converted. The clause number is from memory, and that the force acts within 15° of the "
-        "travel: unverified.",
+        "travel: unverified. Texas (TxDOT’s manual, read): not needed where the annual "
+        "frequency of a hit is below 0.001; trigger distance 30 ft.",
     )
 
 
@@ -76,17 +77,22 @@ def aashto_lrfd_former() -> CodeForce:
 
 
 def jtg_d60() -> CodeForce:
-    """JTG D60, General Code for Design of Highway and Culverts (China)."""
+    """JTG D60, General Code for Design of Highway and Culverts (China).
+
+    The source paper cites the forces; the height and what protection does are of the 2015 edition.
+    """
     return CodeForce(
         code="JTG D60",
         along=Sourced(1000e3, Certainty.CITED),
         across=Sourced(500e3, Certainty.CITED),
         height=Sourced(1.2, Certainty.SECONDARY),
-        note="The two directions are not considered at the same time.",
+        note="The two directions are not considered at the same time. Height: edition of 2015, by "
+        "which the force acts on the member hit and may be reduced where there is protection, to "
+        "no less than 1/6 (second-hand).",
     )
 
 
-#: Road classes of EN 1991-1-7 Table 4.1, with forces along and across the travel [N].
+#: Road classes of EN 1991-1-7 Table 4.1, with forces along and across the travel, from memory [N].
 ROAD_CLASSES = {
     "motorway": (1000e3, 500e3),
     "country": (750e3, 375e3),
@@ -120,6 +126,16 @@ def en_1991_1_7_table(road_class: str = "motorway") -> CodeForce:
     )
 
 
+def en_1991_1_7_germany() -> CodeForce:
+    """German national annex to EN 1991-1-7: 1500 kN on bridges outside built-up areas."""
+    return CodeForce(
+        code="EN 1991-1-7, Germany",
+        clause="nat. annex",
+        along=Sourced(1500e3, Certainty.SECONDARY),
+        note="On substructures of bridges outside built-up areas.",
+    )
+
+
 def en_1991_1_7_hard_impact(speed: float, mass: float, stiffness: float | None = None) -> CodeForce:
     """EN 1991-1-7, Annex C (informative): hard impact, F = v √(k m).
 
@@ -138,14 +154,58 @@ def en_1991_1_7_hard_impact(speed: float, mass: float, stiffness: float | None =
         When a value is not positive.
     """
     status = Certainty.SECONDARY if stiffness is None else Certainty.READ
-    used = Sourced(positive("stiffness", 300e3 if stiffness is None else stiffness), status)
-    force = positive("speed", speed) * math.sqrt(used.value * positive("mass", mass))
+    used = Sourced(300e3 if stiffness is None else stiffness, status)
     return CodeForce(
         code="EN 1991-1-7, hard impact",
         clause="Annex C",
-        along=Sourced(force, status),
+        along=Sourced(_hard_impact(speed, mass, used.value), status),
         stiffness=used,
         note="Informative, F = v √(k m). The formula was read in a public copy.",
+    )
+
+
+def jcss_hard_impact(speed: float, mass: float) -> CodeForce:
+    """JCSS Probabilistic Model Code, Part 2, 2.18: hard impact of a lorry, F = v √(k m).
+
+    Parameters
+    ----------
+    speed : float
+        Speed v at impact [m/s].
+    mass : float
+        Mass m of the vehicle [kg].
+
+    Raises
+    ------
+    InputError
+        When a value is not positive.
+    """
+    stiffness = Sourced(300e3, Certainty.READ)
+    return CodeForce(
+        code="JCSS, hard impact",
+        clause="Part 2, 2.18",
+        along=Sourced(_hard_impact(speed, mass, stiffness.value), Certainty.READ),
+        height=Sourced(1.25, Certainty.READ),
+        stiffness=stiffness,
+        note="Probabilistic Model Code: F = v √(k m), on 0.25 × 1.50 m; by its own account on the "
+        "safe side. F is at most the lower of both yield forces, which then lasts m v / F. k is "
+        "lognormal, 300 ± 60 kN/m; here its mean.",
+    )
+
+
+def _hard_impact(speed: float, mass: float, stiffness: float) -> float:
+    """Return the largest force of a spring that stops a mass, F = v √(k m) [N]."""
+    spring = positive("stiffness", stiffness)
+    return positive("speed", speed) * math.sqrt(spring * positive("mass", mass))
+
+
+def japan() -> CodeForce:
+    """Specifications for highway bridges (Japan): 1000 kN along or 500 kN across, at 1.8 m."""
+    return CodeForce(
+        code="Japan, highway bridges",
+        along=Sourced(1000e3, Certainty.SECONDARY),
+        across=Sourced(500e3, Certainty.SECONDARY),
+        height=Sourced(1.8, Certainty.SECONDARY),
+        note="Along or across, where there is no protective wall. From an engineer’s note of 2012.",
     )
 
 
@@ -168,7 +228,10 @@ def code_forces(speed: float, mass: float) -> tuple[CodeForce, ...]:
         aashto_lrfd_former(),
         jtg_d60(),
         *(en_1991_1_7_table(road) for road in ("motorway", "country", "urban")),
+        en_1991_1_7_germany(),
         en_1991_1_7_hard_impact(speed, mass),
+        jcss_hard_impact(speed, mass),
+        japan(),
         as_5100_2(),
         csa_s6_2000(),
     )

@@ -26,8 +26,8 @@ class Range(NamedTuple):
     size: float
 
 
-# The truck's parameters are 30 % about the reference truck `single-unit-8t`; its friction goes
-# down to none, and acts on the road or on the pier.
+# This project's choice. The truck's parameters are 30 % about the reference truck
+# `single-unit-8t`; its friction goes down to none, and acts on the road or on the pier.
 DOMAIN = {
     "m": Range(6.0, 20.0, "t", 1e3),
     "V": Range(50.0, 110.0, "km/h", 1.0 / 3.6),

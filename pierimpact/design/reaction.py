@@ -18,6 +18,7 @@ from pierimpact.vehicle.truck import Truck
 #: A cargo peak below this share of the engine's counts as much smaller. The source paper gives
 #: no figure; this one is this project's.
 MUCH_SMALLER = 0.5
+#: Nominal impact heights of the source paper without and with a cargo spike that counts [m].
 LOW_IMPACT_HEIGHT, HIGH_IMPACT_HEIGHT = 1.05, 1.35
 
 

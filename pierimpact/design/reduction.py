@@ -28,7 +28,8 @@ from pierimpact.collision.series import Ops
 from pierimpact.collision.stepping import propagate_all
 from pierimpact.pier.equivalent import damping_coefficient
 
-OUT_OF_REACH = 1e6  # distance of the absent body from the pier, in units of v_i √(m_i/k_i)
+# Numerical: distance of the absent body from the pier, in units of v_i √(m_i/k_i).
+OUT_OF_REACH = 1e6
 
 
 def exact_amplification(

@@ -15,10 +15,12 @@ from pierimpact.vehicle.truck import Truck
 
 Array: TypeAlias = NDArray[np.float64]
 
-#: The changes that a reviewer asks for: of speed [m/s], and of the share of the truck's mass.
+#: The changes that a reviewer asks for, this project's choice: of speed [m/s], and of the share of
+#: the truck's mass.
 SPEED_CHANGE, MASS_CHANGE = 10.0 / 3.6, 0.2
 
-# Curves run over these shares of the case's value, and over these frequencies [Hz].
+# Curves run over these shares of the case's value, and over these frequencies [Hz]: this project's
+# choice.
 _SHARES = np.linspace(0.5, 1.5, 31)
 _FREQUENCIES = np.geomspace(2.0, 200.0, 130)
 

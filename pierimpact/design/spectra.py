@@ -10,12 +10,13 @@ from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.collision.simulate import peak_reactions
 from pierimpact.design.procedure import amplification, calculation_of, design_values
 from pierimpact.design.reduction import exact_amplification
-from pierimpact.pier.equivalent import stiffness_at_frequency
+from pierimpact.pier.equivalent import DAMPING_RATIO, stiffness_at_frequency
 from pierimpact.vehicle.truck import Truck
 
 Array = NDArray[np.float64]
 
-#: Frequencies of a spectrum unless others are asked for, evenly spaced in the logarithm [Hz].
+#: Frequencies of a spectrum unless others are asked for, this project's choice: evenly spaced in
+#: the logarithm [Hz].
 FREQUENCIES = np.geomspace(2.0, 200.0, 200)
 
 
@@ -39,7 +40,7 @@ def engine_spectrum(
     truck: Truck,
     speed: float,
     pier_mass: float,
-    damping_ratio: float = 0.05,
+    damping_ratio: float = DAMPING_RATIO,
     frequency: ArrayLike = FREQUENCIES,
     level: str = "short",
 ) -> Spectrum:
@@ -72,7 +73,7 @@ def cargo_spectrum(
     truck: Truck,
     speed: float,
     pier_mass: float,
-    damping_ratio: float = 0.05,
+    damping_ratio: float = DAMPING_RATIO,
     frequency: ArrayLike = FREQUENCIES,
     level: str = "short",
 ) -> Spectrum:

@@ -12,11 +12,12 @@ from typing import NamedTuple
 
 from pierimpact.pier.static_forces import TOP, Ratios, StaticForces, too_low
 
-#: Reaction over the largest contact force, from which on the one is as large as the other.
+#: Reaction over the largest contact force, from which on the one is as large as the other, from
+#: the study.
 AS_LARGE = 0.95
 ABOVE, BELOW = "reaction as large as the contact force", "reaction below the contact force"
 #: What the static forces are of those of the beam where the reaction is below the contact force,
-#: times the contact force over the reaction.
+#: times the contact force over the reaction; from the study.
 RATIOS_BELOW = Ratios((0.95, 1.29), (1.11, 1.67))
 
 

@@ -40,7 +40,8 @@ ENDS = (
     ("pinned", "fixed"),
     ("free", "fixed"),
 )
-#: The forces that are compared, and the ratio below which a static one counts as too low.
+#: The forces that are compared, the ratio below which a static one counts as too low, and the
+#: quantiles of the ratios: this project's choice.
 FORCES, TOO_LOW = ("shear", "moment"), 0.95
 QUANTILES = (0.05, 0.5, 0.95)
 #: Headings in the file; after the first, of columns not held at the top alone.
@@ -51,8 +52,9 @@ BELOW_BY_RATIO = "reaction below the contact force, times the one over the other
 UNDER_THE_LARGER = "under the larger of reaction and contact force"
 
 
-#: What is varied of column, place and collision; half of the sections are round. The truck's other
-#: parameters are those of `DOMAIN`, with the friction on road or pier with equal chance.
+#: What is varied of column, place and collision, this project's choice; half of the sections are
+#: round. The truck's other parameters are those of `DOMAIN`, with the friction on road or pier with
+#: equal chance.
 VARIED = {
     "diameter, or depth along the travel": Range(0.6, 2.5, "m", 1.0),
     "height over diameter or depth": Range(2.0, 15.0, "", 1.0),
@@ -66,6 +68,8 @@ VARIED = {
 #: Those that are uniform in their logarithms; all else is uniform.
 LOGARITHMIC = tuple(VARIED)[1], *tuple(VARIED)[6:]
 TRUCK = ("m1", "P1", "d1", "k1", "ku1", "P2", "d2", "k2", "ku2", "cs")
+
+# This project's choice.
 DENSITY = 2450.0  # of all columns [kg/m³]
 HIGHEST = 0.8  # impact height over column height; those with a higher one are left out
 

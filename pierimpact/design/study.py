@@ -43,9 +43,10 @@ COEFFICIENTS = {
     "mass_effect": procedure.MASS_EFFECT,
     "damping_effect": procedure.DAMPING_EFFECT,
 }
-#: Limits of the frequency bands that are reported apart [Hz].
+#: Limits of the frequency bands that are reported apart, this project's choice [Hz].
 BANDS = (5.0, 7.0, 10.0, 15.0, 20.0, 40.0, 80.0, 150.0)
-#: An amplification that is too low weighs this much more in the fit than one too high.
+#: An amplification that is too low weighs this much more in the fit than one too high: this
+#: project's choice.
 PRUDENCE = 2.0
 
 
@@ -84,7 +85,7 @@ def with_truck(parameters: Parameters, truck: Truck) -> Parameters:
     )
 
 
-#: What is reported of predicted over CMSD reactions.
+#: What is reported of predicted over CMSD reactions, this project's choice.
 RATIO_STATISTICS: Statistics = {
     "mean": np.mean,
     "coefficient of variation": lambda ratios: ratios.std() / ratios.mean(),

@@ -7,6 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo
 
 from pierimpact.checks import InputError, brief, known, not_negative, one_line, positive
+from pierimpact.pier.column import POISSON_RATIO
+from pierimpact.pier.equivalent import DAMPING_RATIO
 from pierimpact.symbols import BY_KEY, dimension
 from pierimpact.units import parse
 
@@ -157,7 +159,7 @@ class Inputs(SectionInputs):
     column_height: Positive
     elastic_modulus: Positive | None = None
     concrete_strength: Positive | None = None
-    poisson_ratio: Annotated[float, _named(_poisson_ratio)] = 0.2
+    poisson_ratio: Annotated[float, _named(_poisson_ratio)] = POISSON_RATIO
     density: Positive
     stiffness_factor: Factor | None = None
     effective_stiffness: Positive | None = None
@@ -174,7 +176,7 @@ class Inputs(SectionInputs):
     truck_mass: Positive | None = None
     speed: Positive
     impact_height: Annotated[float | Literal["auto"], _named(_impact_height)]
-    damping_ratio: Annotated[float, _named(_damping_ratio)] = 0.05
+    damping_ratio: Annotated[float, _named(_damping_ratio)] = DAMPING_RATIO
     units: Literal["SI", "US"] = "SI"
     shear_resistance: Positive | None = None
     moment_resistance: Positive | None = None

@@ -14,6 +14,7 @@ from pierimpact.pier.equivalent import EquivalentPier
 
 Array: TypeAlias = NDArray[np.float64]
 
+# Numerical settings.
 HIGHEST_FREQUENCY = 2500.0  # up to which modes are kept [Hz]
 FEWEST_MODES, MOST_MODES = 8, 64
 INTERVALS = 60  # about as many between the heights at which shear and moment are evaluated

@@ -14,7 +14,12 @@ from pierimpact.checks import InputError, not_negative, number, one_of, positive
 from pierimpact.handcalc import Calculation
 from pierimpact.pier.arrangement import SUPPORTS, Arrangement, Part, Support, refuse_mechanism
 from pierimpact.pier.beam import BeamPier, beam_pier
-from pierimpact.pier.equivalent import EquivalentPier, equivalent_mass, natural_frequency
+from pierimpact.pier.equivalent import (
+    DAMPING_RATIO,
+    EquivalentPier,
+    equivalent_mass,
+    natural_frequency,
+)
 from pierimpact.pier.member_forces import MemberForces
 from pierimpact.pier.rigidities import rigidities
 from pierimpact.pier.sections import Section
@@ -23,6 +28,8 @@ from pierimpact.pier.static_forces import StaticForces, StaticForcesWarning
 from pierimpact.pier.unit_force import BY_ENDS
 
 END_CONDITIONS = tuple(SUPPORTS)
+#: Poisson's ratio unless another is given: this project's assumption, usual for concrete.
+POISSON_RATIO = 0.2
 _SPRINGS = ("base_stiffness", "base_rotation_stiffness", "top_stiffness", "top_rotation_stiffness")
 
 
@@ -101,7 +108,7 @@ class PierColumn:
     height: float
     section: Section
     elastic_modulus: float
-    poisson_ratio: float = 0.2
+    poisson_ratio: float = POISSON_RATIO
     density: float
     base: str = "fixed"
     top: str = "pinned"
@@ -234,7 +241,9 @@ class PierColumn:
         """Return the column under a unit force at `impact_height` [m]."""
         return StruckColumn(column=self, impact_height=impact_height)
 
-    def equivalent(self, impact_height: float, damping_ratio: float = 0.05) -> EquivalentPier:
+    def equivalent(
+        self, impact_height: float, damping_ratio: float = DAMPING_RATIO
+    ) -> EquivalentPier:
         """Return the pier as one degree of freedom (Eqs 1–3 of the source paper).
 
         Parameters
@@ -261,7 +270,7 @@ class PierColumn:
         return pier
 
     def beam(
-        self, impact_height: float, damping_ratio: float = 0.05, modes: int | None = None
+        self, impact_height: float, damping_ratio: float = DAMPING_RATIO, modes: int | None = None
     ) -> BeamPier:
         """Return the pier as a beam that vibrates in its natural modes.
 
@@ -421,7 +430,7 @@ class StruckColumn:
         )
         return StaticForces(base, top, frequency)
 
-    def equivalent(self, damping_ratio: float = 0.05) -> EquivalentPier:
+    def equivalent(self, damping_ratio: float = DAMPING_RATIO) -> EquivalentPier:
         """Return the pier as one degree of freedom, with a damping ratio ζ [-]."""
         return EquivalentPier(mass=self.mass, stiffness=self.stiffness, damping_ratio=damping_ratio)
 

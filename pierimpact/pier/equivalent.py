@@ -8,6 +8,9 @@ from numpy import sqrt
 from pierimpact.checks import InputError, not_negative, positive, positive_or_infinite
 from pierimpact.handcalc import Calculation, Real
 
+#: Damping ratio ζ unless another is given: this project's assumption, usual for concrete piers.
+DAMPING_RATIO = 0.05
+
 
 def natural_frequency(mass: Real, stiffness: Real) -> Real:
     """Return the undamped frequency √(k/m)/2π of a mass [kg] on a spring [N/m] [Hz]."""
@@ -69,7 +72,7 @@ class EquivalentPier:
 
     mass: float
     stiffness: float
-    damping_ratio: float = 0.05
+    damping_ratio: float = DAMPING_RATIO
     yield_reaction: float = inf
 
     def __post_init__(self) -> None:
@@ -84,7 +87,7 @@ class EquivalentPier:
 
     @classmethod
     def from_frequency(
-        cls, mass: float, frequency: float, damping_ratio: float = 0.05
+        cls, mass: float, frequency: float, damping_ratio: float = DAMPING_RATIO
     ) -> "EquivalentPier":
         """Return the pier of a mass [kg] and an undamped frequency f_p [Hz]."""
         mass, frequency = positive("mass", mass), positive("frequency", frequency)

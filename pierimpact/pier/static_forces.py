@@ -16,7 +16,7 @@ class StaticForcesWarning(UserWarning):
     """Member forces under the reaction as a static force may be too low."""
 
 
-#: Frequency f_p below which a pier is too slow for the engine's blow [Hz].
+#: Frequency f_p below which a pier is too slow for the engine's blow, from the study [Hz].
 LOWEST_FREQUENCY = 55.0
 
 
@@ -31,7 +31,7 @@ class Ratios(NamedTuple):
 
 
 QUICK, SLOW, TOP = "quick", "slow", "held at the top"
-#: By kind of column.
+#: By kind of column, from the study.
 RATIOS = {
     QUICK: Ratios((0.91, 1.42), (0.97, 1.44)),
     SLOW: Ratios((0.41, 1.56), (0.52, 1.61)),

@@ -192,6 +192,7 @@ class Validation:
         def between(low: float, high: float) -> Array:
             return random.uniform(low, high, size)
 
+        # The ranges are this project's choice.
         return _both_levels(
             "tab-beyond",
             "Predicted over full-model governing reaction with one parameter outside the domain.",

@@ -100,7 +100,7 @@ class Lognormal:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The factors that 5 % and 95 % of all parameters lie below [-]."""
+        """The factors that 5 % and 95 % of all parameters lie below, this project's choice [-]."""
         low, high = self.factor(np.array([0.05, 0.95]))
         return float(low), float(high)
 

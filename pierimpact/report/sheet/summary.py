@@ -18,9 +18,10 @@ from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, printed, rounded, unit_size
 
-#: Window of the average that the force of AASHTO LRFD was taken from [s].
+#: Window of the average that the force of AASHTO LRFD was taken from, as read in NCHRP Report 892
+#: [s].
 AVERAGE = 0.025
-#: Static over beam below which the static member forces are called unsafe.
+#: Static over beam below which the static member forces are called unsafe: this project's choice.
 UNSAFE = 0.95
 #: The member forces that are checked, and what kind of quantity they are.
 DEMANDS = {"shear": "force", "moment": "moment"}
