@@ -17,10 +17,10 @@ Array = NDArray[np.float64]
 
 QUANTITIES = ("contact force", "reaction")
 FEWEST = 50  # samples of a record
-#: Stands for a rigid pier: in a collision it moves by less than the thickness of an atom.
+#: A rigid pier, numerical: in a collision it moves by less than the thickness of an atom.
 RIGID = EquivalentPier.from_frequency(mass=1e14, frequency=10.0)
 
-_PAD = 3.0  # periods of the cut-off frequency by which a force goes on beyond its ends
+_PAD = 3.0  # periods of the cut-off frequency by which a force goes on beyond its ends; numerical
 _FINE = 50  # samples of the model in a window or a period of the cut-off frequency
 
 
@@ -90,6 +90,7 @@ class Record:
                 values[name] = positive(name, value)
         for name, value in values.items():
             object.__setattr__(self, name, value)
+        # Of the samples a second; this project's choice.
         if self.cutoff is not None and self.cutoff > 0.4 / self.step:
             raise InputError(
                 f"cutoff must be at most 0.4 of the record's {1.0 / self.step:.4g} samples a "

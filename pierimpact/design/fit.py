@@ -42,18 +42,23 @@ PARAMETERS = (
     "friction_force",
     *(f"{spring}.{name}" for spring in _SPRINGS for name in _LAW),
 )
-#: Standard errors that must fit in the accuracy asked for; a value is off by more 3 times in 1000.
+#: What counts as shown within, and how well the start is trusted: this project's choices [-].
+ACCURACY, SPREAD = 0.05, 0.3
+#: Standard errors that must fit in the accuracy asked for, this project's choice; a value is off
+#: by more 3 times in 1000.
 SURE = 3.0
-_WIDEST = math.log(10.0)  # bound of r
-_NEVER = math.log(1e3)  # r of a plateau that no crush comes to the end of
-_DRAWS, _APART = 40, 0.05  # random trucks, and steps of r along a parameter, to start from
+_WIDEST = math.log(10.0)  # bound of r, this project's choice
+_NEVER = math.log(1e3)  # r of a plateau that no crush comes to the end of; numerical
+# Random trucks, and steps of r along a parameter, to start from; numerical.
+_DRAWS, _APART = 40, 0.05
 #: Parameters that set when the spikes occur, the larger first.
 _POSITIONS = ("body_spring.plateau_length", "engine_spring.plateau_length")
 _FEW = 2000  # samples of a record while looking for the best start
 _SEED = 0
-_CHANGE, _ASIDE = 1e-6, 1e-4  # of r, for derivatives, and to leave the corners
-_GAIN = 0.5  # share of the spread that the error of a parameter shown does not exceed
-_TOGETHER = 0.9  # correlation from which parameters are said to show together
+_CHANGE, _ASIDE = 1e-6, 1e-4  # of r, for derivatives, and to leave the corners; numerical
+# Share of the spread that the error of a parameter shown does not exceed, and correlation from
+# which parameters are said to show together: this project's choices.
+_GAIN, _TOGETHER = 0.5, 0.9
 
 
 class Estimate(NamedTuple):
@@ -136,8 +141,8 @@ def fit_truck(
     average: float | None = None,
     first_touch: float = 0.0,
     parameters: Collection[str] | None = None,
-    accuracy: float = 0.05,
-    spread: float = 0.3,
+    accuracy: float = ACCURACY,
+    spread: float = SPREAD,
     progress: Callable[[int], object] = lambda count: None,
 ) -> TruckFit:
     """Fit a truck to a force record.
@@ -188,8 +193,8 @@ def fit_records(
     start: Truck,
     *,
     parameters: Collection[str] | None = None,
-    accuracy: float = 0.05,
-    spread: float = 0.3,
+    accuracy: float = ACCURACY,
+    spread: float = SPREAD,
     progress: Callable[[int], object] = lambda count: None,
 ) -> TruckFit:
     """Fit one truck to force records, of several speeds or piers, say.
@@ -228,7 +233,7 @@ def fit_records(
         [max(1, len(record.time) // _FEW) for record in records],
         progress,
     )
-    first_noise = [0.05 * record.peak for record in records]
+    first_noise = [0.05 * record.peak for record in records]  # to begin with; numerical
     r, noise = problem.solve(problem.starts(), first_noise, tolerance=1e-3)
     problem = replace(problem, strides=[1] * len(records))
     for _ in range(2):  # the second time with the noise that the first has found
@@ -293,7 +298,7 @@ def with_parameters(truck: Truck, values: Mapping[str, float]) -> Truck:
         limit = law["plateau_force"] / law["unloading_stiffness"]
         law["plateau_length"] = max(law["plateau_length"], limit)
         springs[spring] = CrushSpring(**law)
-    engine_mass = min(values.get("engine_mass", truck.engine_mass), 0.99 * truck.mass)
+    engine_mass = min(values.get("engine_mass", truck.engine_mass), 0.99 * truck.mass)  # numerical
     return replace(
         truck,
         engine_mass=engine_mass,
@@ -362,7 +367,10 @@ class _Problem:
     def solve(
         self, starts: Sequence[Array], noise: Sequence[float], tolerance: float = 1e-6
     ) -> tuple[Array, list[float]]:
-        """Return the best r from several starts, and the noise of each record there [N]."""
+        """Return the best r from several starts, and the noise of each record there [N].
+
+        The tolerance is relative and numerical.
+        """
         from scipy.optimize import least_squares
 
         def weighted(r: Array) -> Array:
@@ -430,7 +438,7 @@ class _Problem:
         turn to where the forces come closest; they set when the spikes occur.
         """
         random = np.random.default_rng(_SEED)
-        reach = min(1.5 * self.spread, 0.9 * _WIDEST)
+        reach = min(1.5 * self.spread, 0.9 * _WIDEST)  # numerical
         draws = random.uniform(-reach, reach, (_DRAWS, len(self.names)))
         places = np.linspace(-reach, reach, math.ceil(2.0 * reach / _APART))
         starts = [np.zeros(len(self.names)), min(draws, key=lambda r: self.badness(r, np.cumsum))]

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 _HEADING = re.compile(r"\s*(.*?)\s*\[\s*(.*?)\s*\]\s*")
 _EXAMPLE = "such as: time [ms], contact force [kN]"
 _DIMENSIONS = {"time": "time"} | dict.fromkeys(QUANTITIES, "force")
-_GAP = 10.0  # times the usual step, from which one is a gap
+_GAP = 10.0  # times the usual step, from which one is a gap; this project's choice
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*")
 
 

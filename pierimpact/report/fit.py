@@ -6,7 +6,7 @@ from typing import NamedTuple, TypeVar
 
 from pierimpact.checks import InputError
 from pierimpact.collision.records import Record
-from pierimpact.design.fit import TruckFit, fit_records
+from pierimpact.design.fit import ACCURACY, TruckFit, fit_records
 from pierimpact.files.fitted import fitted_truck_file
 from pierimpact.files.records import RecordFile, read_record_file
 from pierimpact.files.trucks import read_truck_file
@@ -42,7 +42,7 @@ def fit_files(
     start: str = "single-unit-8t",
     mass: float | None = None,
     treatment: Treatment = Treatment(),  # noqa: B008
-    accuracy: float = 0.05,
+    accuracy: float = ACCURACY,
     name: str = "fitted",
     progress: Callable[[int], object] = lambda count: None,
 ) -> FittedTruck:

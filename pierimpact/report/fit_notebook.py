@@ -13,7 +13,7 @@ from pierimpact.report.document.numbered import Figure, Table, columns, decimal,
 from pierimpact.report.fit import fit_rows
 from pierimpact.vehicle.truck import Truck
 
-_SAMPLES, _DURATION = 5e3, 0.25  # a second, and for how long [s]
+_SAMPLES, _DURATION = 5e3, 0.25  # a second, and for how long [s]; illustrative
 
 
 def noisy_record(
@@ -33,7 +33,7 @@ def noisy_record(
     speed, pier, quantity
         As in `Record`.
     noise : float, optional
-        Standard deviation of the noise, as a share of the peak [-].
+        Standard deviation of the noise, as a share of the peak; 2 % is illustrative [-].
     seed : int, optional
         Seed of the random numbers.
     """
