@@ -2,10 +2,10 @@
 
 import math
 import unicodedata
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from difflib import get_close_matches
 from operator import index
-from typing import SupportsFloat, SupportsIndex
+from typing import Any, SupportsFloat, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -139,6 +139,15 @@ def ascending_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
         raise InputError(f"{name} must be in one row, got shape {array.shape}")
     _refuse(name, array, np.diff(array, prepend=-np.inf) <= 0.0, "ascend")
     return array
+
+
+def broadcast(arrays: Mapping[str, NDArray[Any]]) -> tuple[NDArray[Any], ...]:
+    """Return the arrays, by name, in the one shape to which they broadcast."""
+    try:
+        return np.broadcast_arrays(*arrays.values())
+    except ValueError:
+        listed = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise InputError(f"shapes must broadcast against each other, got {listed}") from None
 
 
 def _array(name: str, values: ArrayLike) -> NDArray[np.float64]:

@@ -4,13 +4,16 @@ Each number carries where it comes from. Only what is cited in the source paper 
 public copy of the code is taken as sure; all else says so wherever it is printed.
 """
 
-import math
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from pierimpact.certainty import Certainty
-from pierimpact.checks import one_of, positive
+from pierimpact.checks import broadcast, one_of, positive_array
 
 KIP = 4448.2216152605  # pound-force of exactly 0.45359237 kg × 9.80665 m/s², times 1000 [N]
+JCSS_STIFFNESS = 300e3  # of a vehicle, the mean; its standard deviation is 60 kN/m [N/m]
 
 
 class Sourced(NamedTuple):
@@ -158,7 +161,7 @@ def en_1991_1_7_hard_impact(speed: float, mass: float, stiffness: float | None =
     return CodeForce(
         code="EN 1991-1-7, hard impact",
         clause="Annex C",
-        along=Sourced(_hard_impact(speed, mass, used.value), status),
+        along=Sourced(float(hard_impact(speed, mass, used.value)), status),
         stiffness=used,
         note="Informative, F = v √(k m). The formula was read in a public copy.",
     )
@@ -179,11 +182,12 @@ def jcss_hard_impact(speed: float, mass: float) -> CodeForce:
     InputError
         When a value is not positive.
     """
-    stiffness = Sourced(300e3, Certainty.READ)
+    stiffness = Sourced(JCSS_STIFFNESS, Certainty.READ)
+    force = float(hard_impact(speed, mass, stiffness.value))
     return CodeForce(
         code="JCSS, hard impact",
         clause="Part 2, 2.18",
-        along=Sourced(_hard_impact(speed, mass, stiffness.value), Certainty.READ),
+        along=Sourced(force, Certainty.READ),
         height=Sourced(1.25, Certainty.READ),
         stiffness=stiffness,
         note="Probabilistic Model Code: F = v √(k m), on 0.25 × 1.50 m; by its own account on the "
@@ -192,10 +196,19 @@ def jcss_hard_impact(speed: float, mass: float) -> CodeForce:
     )
 
 
-def _hard_impact(speed: float, mass: float, stiffness: float) -> float:
-    """Return the largest force of a spring that stops a mass, F = v √(k m) [N]."""
-    spring = positive("stiffness", stiffness)
-    return positive("speed", speed) * math.sqrt(spring * positive("mass", mass))
+def hard_impact(speed: ArrayLike, mass: ArrayLike, stiffness: ArrayLike) -> NDArray[np.float64]:
+    """Return the largest force of a spring that stops a mass, F = v √(k m), as they broadcast [N].
+
+    Speed v [m/s], mass m [kg] and stiffness k [N/m], each above zero.
+    """
+    v, m, k = broadcast(
+        {
+            "speed": positive_array("speed", speed),
+            "mass": positive_array("mass", mass),
+            "stiffness": positive_array("stiffness", stiffness),
+        }
+    )
+    return np.asarray(v * np.sqrt(k * m))
 
 
 def japan() -> CodeForce:

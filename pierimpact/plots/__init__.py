@@ -2,6 +2,6 @@
 
 `style` is under all of them. One subject a file: `collision` (forces and energy in time),
 `spectrum`, `amplification`, `shape`, `comparison`, `influence` and `schematic` draw on axes and
-know nothing of notebooks; `elevation`, `section`, `figures`, `band`, `static_forces` and
-`validation` make whole figures for pages.
+know nothing of notebooks; `elevation`, `section`, `figures`, `band`, `static_forces`,
+`methods` and `validation` make whole figures for pages.
 """

@@ -1,4 +1,4 @@
-"""Maps of the teaching notebooks: where the static member forces hold."""
+"""Maps of the teaching notebooks: where static member forces hold, and how far methods err."""
 
 import base64
 import html
@@ -6,13 +6,20 @@ import io
 import json
 from collections.abc import Mapping
 
+import numpy as np
 from IPython.display import HTML
+from matplotlib.figure import Figure
 
+from pierimpact.design.methods import METHODS, compare_methods, hertz_stiffness
 from pierimpact.design.static_study import OUTCOME_FILE, Struck, as_columns, compare
 from pierimpact.pier.column import PierColumn
 from pierimpact.pier.sections import CircularSection
+from pierimpact.plots.methods import methods_figure
 from pierimpact.plots.static_forces import map_figure
-from pierimpact.teaching.scenario import REFERENCE
+from pierimpact.teaching.markup import table
+from pierimpact.teaching.scenario import REFERENCE, Scenario
+
+STRIKER_RADIUS = 0.5  # of the Hertz contact, a round number [m]
 
 
 def _example(height: float, diameter: float, top: str, speed: float) -> Struck:
@@ -47,16 +54,40 @@ def static_forces(columns: Mapping[str, Struck] = EXAMPLES) -> HTML:
     """
     outcome = json.loads(OUTCOME_FILE.read_text(encoding="utf-8"))
     marked = {name: compare(struck) for name, struck in columns.items()}
-    file = io.BytesIO()
-    map_figure(as_columns(outcome["found"]), marked).savefig(file, format="png")
-    data = base64.b64encode(file.getvalue()).decode()
     words = "; ".join(
         f"{name}: shear {found.shear:.2f}, moment {found.moment:.2f}"
         for name, found in marked.items()
     )
     alt = f"Static over beam's largest shear and moment of {len(outcome['found']['ends'])} columns"
-    return HTML(  # type: ignore[no-untyped-call]
-        f'<img src="data:image/png;base64,{data}" alt="{html.escape(f"{alt}. {words}")}" '
-        'style="width:100%;'
-        'max-width:960px">'
+    figure = map_figure(as_columns(outcome["found"]), marked)
+    return HTML(_image(figure, f"{alt}. {words}"))  # type: ignore[no-untyped-call]
+
+
+def methods() -> HTML:
+    """Return the forces by other methods beside the full model, and what each takes for granted.
+
+    The reference truck strikes the column of the explorers, over speed and over mass.
+    """
+    scenario = Scenario()
+    truck, pier, speed = scenario.truck, scenario.pier, scenario.speed
+    stiffness = hertz_stiffness(STRIKER_RADIUS, scenario.column_diameter, scenario.elastic_modulus)
+    over_speed = compare_methods(
+        truck, pier, np.arange(20.0, 131.0, 2.0) / 3.6, truck.mass, stiffness
+    )
+    over_mass = compare_methods(truck, pier, speed, 1e3 * np.arange(3.0, 40.5, 0.5), stiffness)
+    alt = "Forces by every method over speed and over mass; the table below says how each errs"
+    rows = [(m.name, m.source, m.status, m.assumptions, m.errs) for m in METHODS]
+    heads = ("Method", "Source", "Status", "Takes for granted", "Errs, for this truck")
+    page = _image(methods_figure(over_speed, over_mass), alt) + table(heads, rows)
+    return HTML(page)  # type: ignore[no-untyped-call]
+
+
+def _image(figure: Figure, alt: str) -> str:
+    """Return a figure as HTML that needs no other file."""
+    file = io.BytesIO()
+    figure.savefig(file, format="png")
+    data = base64.b64encode(file.getvalue()).decode()
+    return (
+        f'<img src="data:image/png;base64,{data}" alt="{html.escape(alt)}" '
+        'style="width:100%;max-width:960px">'
     )
