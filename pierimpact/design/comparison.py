@@ -133,8 +133,10 @@ def compare(
     """
     own, names = measured.collision, list(measured.responses)
     windows = [_window(name) for name in names]
-    band = reaction_band(own.truck, own.pier, own.speed, size=size, seed=seed)
     count = min(whole("histories", histories, 1), size)
+    # The first collisions of a larger sample are those of a smaller one.
+    size = size if set(names) & set(_BANDS) else count
+    band = reaction_band(own.truck, own.pier, own.speed, size=size, seed=seed)
     collisions = [own]
     if set(names) - set(_BANDS):
         collisions += [band.sampled(index) for index in range(count)]

@@ -50,7 +50,8 @@ def draw_cargo(histories: Mapping[str, CollisionHistory], system: str) -> str:
             width = line | {"linewidth": 1.3}
             force.plot(1e3 * own.time, own.contact_force / size, label=name, **width)
             impulse.plot(1e3 * own.time, own.impulse / size, label=name, **width)
-        end = 1e3 * min(float(own.time[-1]) for own in histories.values())
+        ends = [own.time[own.contact_force > 0.0][-1] for own in histories.values()]
+        end = 1.2e3 * float(max(ends))
         for axes in (force, impulse):
             axes.set(xlabel="Time after first touch [ms]", xlim=(0.0, end))
             axes.set_ylim(bottom=0.0)
@@ -114,7 +115,7 @@ def draw_averages(
         axes.axhline(limit / size, label="600 kip, AASHTO LRFD", **_LIMIT)
         for speed, force, name in marks:
             axes.plot(3.6 * speed, force / size, "ko", markersize=4.0)
-            note(axes, name, (3.6 * speed, force / size), (-5.0, 3.0), ha="right")
+            note(axes, name, (3.6 * speed, force / size), (-6.0, 4.0), ha="right")
         axes.set(xlabel="Speed [km/h]", ylabel=f"Largest average [{unit_of('force', system)}]")
         axes.set_xlim(3.6 * speeds[0], 3.6 * speeds[-1])
         axes.set_ylim(bottom=0.0)
@@ -123,7 +124,7 @@ def draw_averages(
 
 
 def draw_agreement(names: Sequence[str], ratios: Array) -> str:
-    """Draw model over measured, a row for each response; return SVG.
+    """Draw model over published forces, a row for each response; return SVG.
 
     Parameters
     ----------
@@ -147,5 +148,5 @@ def draw_agreement(names: Sequence[str], ratios: Array) -> str:
             axes.plot([middle, middle], [row - 0.25, row + 0.25], color=BLUE, linewidth=1.6)
             axes.plot(nominal, row, "ko", markersize=4.0)
         axes.set_xlim(left=0.0)
-        axes.set_xlabel("Model over measured; bar: 5 to 95 % of trucks; dot: parameters as given")
+        axes.set_xlabel("Model over published")
         return to_svg(figure)

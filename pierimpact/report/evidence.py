@@ -26,8 +26,10 @@ from pierimpact.design.comparison import (
     compare,
     response_words,
 )
+from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.plots import evidence as figures
-from pierimpact.report.document.blocks import Block
+from pierimpact.report.document.blocks import Block, Notes
+from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.resources import shipped
 from pierimpact.units import printed, rounded
@@ -75,34 +77,37 @@ class Comparison:
 
     def table(self) -> Block:
         """Return every response with that of the model, its band and their ratio."""
+        rows: list[list[Inline]] = []
+        shown: Measured | None = None
+        for own in self.compared:
+            case = own.measured
+            forces = own.value, own.nominal, own.band[0], own.band[2]
+            rows.append(
+                [
+                    case.name,
+                    _short(own.response),
+                    *map(_force, forces),
+                    f"{own.ratio:.2f}" if np.isfinite(own.ratio) else "–",
+                    _source(case.source, case.status) if case is not shown else "",
+                ]
+            )
+            shown = case
         return Table(
             label=f"tab-{self.label}",
-            caption="Published forces and those of the model, with what 5 to 95 % of the trucks of "
-            "its spread give. Forces in kN; averages are the largest of the contact force.",
+            caption="Published forces and those of the model [kN], from 5 to 95 % of the trucks of "
+            "its spread. Averages are the largest moving averages of the contact force.",
             columns=columns(
                 wide("Case"),
                 "Force",
-                decimal("Published"),
-                decimal("Model"),
-                decimal("From"),
-                decimal("To"),
-                decimal("Ratio"),
-                "Status",
+                *map(decimal, ("Published", "Model", "5 %", "95 %", "Ratio")),
                 wide("Source"),
             ),
-            rows=[
-                [
-                    own.measured.name,
-                    _short(own.response),
-                    *(_force(force) for force in (own.value, own.nominal, own.band[0])),
-                    _force(own.band[2]),
-                    f"{own.ratio:.2f}" if np.isfinite(own.ratio) else "–",
-                    own.measured.status.words,
-                    ". ".join(filter(None, (own.measured.source, own.measured.remark))),
-                ]
-                for own in self.compared
-            ],
+            rows=rows,
         )
+
+    def remarks(self) -> Block:
+        """Return what else to know of the cases."""
+        return Notes([f"{own.name}: {own.remark}" for own in self.measured if own.remark])
 
     def figure(self) -> Block:
         """Return model over measured with its band, a row for each response."""
@@ -112,8 +117,8 @@ class Comparison:
         span = f"from {finite.min():.2f} to {finite.max():.2f}" if len(finite) else "nowhere"
         return Figure(
             label=f"fig-{self.label}",
-            caption="The model over what was published, with the band that the spread of the "
-            "truck’s parameters makes.",
+            caption="The model over what was published. Dots: parameters at their values; bars: "
+            "5 to 95 % of the trucks of their spread, with the median.",
             alt=f"A bar for each of {len(names)} forces; model over published is {span}.",
             svg=figures.draw_agreement(names, ratios),
         )
@@ -138,10 +143,11 @@ def double_cargo(truck: Truck, light: float) -> Block:
 def first_peak(truck: Truck, masses: Sequence[float]) -> Block:
     """Return the engine's peak on a rigid pier against speed, for total masses [kg]."""
     speeds = np.linspace(30.0, 130.0, 41) / 3.6
+    pier = EquivalentPier.from_frequency(RIGID.mass, 10.0 * RIGID.frequency)  # no ringing to see
     trucks = [truck.loaded_to(mass) for mass in masses]
     peaks = {
         f"{own.mass / 1e3:.3g} t": peak_reactions(
-            own, RIGID.mass, RIGID.stiffness, RIGID.damping_ratio, speeds
+            own, pier.mass, pier.stiffness, pier.damping_ratio, speeds
         ).engine
         for own in trucks
     }
@@ -205,9 +211,9 @@ def statements(single_unit: Truck, tractor_trailer: Truck) -> Block:
             "The peak force is governed by the engine’s mass and the speed, the impulse by the "
             "total momentum",
             "Do, Pham & Hao 2018",
-            f"The same for the first peak: with m2 doubled it is {engine:.2f} times as large and "
-            f"the impulse {impulse:.2f} times. On a rigid pier the cargo’s later peak, which grows "
-            "with m2, may be the larger.",
+            "The same for the first peak: with the mass behind the engine doubled it is "
+            f"{engine:.2f} times as large and the impulse {impulse:.2f} times. The cargo’s later "
+            "peak, which grows with that mass, may be the larger.",
         ),
         Finding(
             "The first peak, that of the engine on the rigid pole, does not depend on the total "
@@ -297,8 +303,8 @@ def _findings(label: str, caption: str, heading: str, found: Sequence[Finding]) 
     return Table(
         label=label,
         caption=caption,
-        columns=columns(wide("Finding"), "Source", "Status", wide(heading)),
-        rows=[[own.words, own.source, own.status.words, own.answer] for own in found],
+        columns=columns(wide("Finding"), wide("Source"), wide(heading)),
+        rows=[[own.words, _source(own.source, own.status), own.answer] for own in found],
     )
 
 
@@ -317,6 +323,10 @@ def _growth(one: CollisionHistory, other: CollisionHistory) -> tuple[float, floa
 
 def _average(truck: Truck, speed: float) -> float:
     return largest_average_force(simulate(truck, RIGID, speed, WINDOWS[1]), WINDOWS[1]).force
+
+
+def _source(source: str, status: Certainty) -> str:
+    return f"{source}; {status.words}"
 
 
 def _short(response: str) -> str:
