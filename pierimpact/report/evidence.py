@@ -94,8 +94,9 @@ class Comparison:
             shown = case
         return Table(
             label=f"tab-{self.label}",
-            caption="Published forces and those of the model [kN], from 5 to 95 % of the trucks of "
-            "its spread. Averages are the largest moving averages of the contact force.",
+            caption="Published forces and those of the model [kN], with what 5 and 95 % of the "
+            "trucks of its spread stay below. Averages are the largest moving averages of the "
+            "contact force.",
             columns=columns(
                 wide("Case"),
                 "Force",
