@@ -19,7 +19,7 @@ from pierimpact.pier.equivalent import EquivalentPier
 
 Array: TypeAlias = NDArray[np.float64]
 
-#: A pier so stiff and quick that the contact force is as on a rigid one.
+#: A pier so stiff and quick that the contact force is as on a rigid one; this project's choice.
 RIGID = EquivalentPier.from_frequency(mass=10e3, frequency=200.0)
 #: Responses, and what they are in words; any average over some milliseconds is one too.
 RESPONSES = {

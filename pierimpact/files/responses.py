@@ -159,7 +159,6 @@ def _collision(values: Mapping[str, Any], folder: Path) -> Collision:
     truck = read_truck_file(values["truck"], folder).truck
     if "truck_mass" in values:
         truck = truck.loaded_to(parse("truck_mass", values["truck_mass"], "mass"))
-    pier = EquivalentPier(
-        mass=mass, stiffness=stiffness, damping_ratio=values.get("damping_ratio", 0.05)
-    )
+    damping = {name: values[name] for name in values if name == "damping_ratio"}
+    pier = EquivalentPier(mass=mass, stiffness=stiffness, **damping)
     return Collision(truck, pier, parse("speed", values["speed"], "speed"))
