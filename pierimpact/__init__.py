@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from pierimpact.pier.static_forces import StaticForcesWarning
     from pierimpact.vehicle.crush import CrushSpring
     from pierimpact.vehicle.spread import Lognormal, Uniform
-    from pierimpact.vehicle.truck import Truck
+    from pierimpact.vehicle.truck import MassRangeWarning, Truck
 
 __version__ = "0.1.0"
 
@@ -44,6 +44,7 @@ __all__ = [
     "HollowRectangularSection",
     "InputError",
     "Lognormal",
+    "MassRangeWarning",
     "OblongSection",
     "PierColumn",
     "RectangularSection",
@@ -94,7 +95,7 @@ _HOMES = {
     "pier.static_forces": ["StaticForcesWarning"],
     "vehicle.crush": ["CrushSpring"],
     "vehicle.spread": ["Lognormal", "Uniform"],
-    "vehicle.truck": ["Truck"],
+    "vehicle.truck": ["MassRangeWarning", "Truck"],
 }
 _MODULES = ("exercises", "maps", "tables", "widgets")
 

@@ -87,7 +87,7 @@ def _collision(row):
         body_spring=spring_like(reference.body_spring),
         friction_force=0.0 if friction_on == "nothing" else friction_force,
         friction_on="road" if friction_on == "nothing" else friction_on,
-    ).with_mass(_between(TRUCK_MASS, next(fractions)))
+    ).loaded_to(_between(TRUCK_MASS, next(fractions)))
     mass = _evenly_in_logarithm(PIER_MASS, next(fractions))
     frequency = _evenly_in_logarithm(FREQUENCY, next(fractions))
     pier = EquivalentPier(

@@ -83,7 +83,7 @@ def test_the_example(band):
     assert band.quantiles(of="engine") / 1e6 == pytest.approx([4.2, 6.9, 9.3], rel=0.02)
     assert band.quantiles() / 1e6 == pytest.approx([4.6, 6.9, 9.3], rel=0.02)
     # Where the truck's total mass is known, the cargo's reaction is better known too.
-    stated = reaction_band(TRUCK.with_mass(8e3), STIFF, SPEED)
+    stated = reaction_band(TRUCK.loaded_to(8e3), STIFF, SPEED)
     assert stated.quantiles(of="cargo") / 1e6 == pytest.approx([2.8, 4.4, 5.8], rel=0.025)
     assert "body_mass" not in stated.influence
 

@@ -737,7 +737,7 @@ def test_the_reactions_at_other_speeds_and_masses(calculated):
         if name.startswith("Speed"):
             at = speed + sign * 10.0 / 3.6
         if name.startswith("Mass"):
-            truck = truck.with_mass(mass * (1.0 + sign * 0.2))
+            truck = truck.loaded_to(mass * (1.0 + sign * 0.2))
         if value == "not possible":
             assert at <= 0.0
             continue

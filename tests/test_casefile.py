@@ -190,7 +190,7 @@ def test_what_the_summary_says_of_a_section():
             "truck_mass must be a mass (kg, t, lb), got '80 kip', which",
         ),
         ({"truck_mass": "600 kg"}, "truck_mass must exceed the engine's 700 kg, got 600 kg"),
-        ({"truck": "single"}, "truck must be a name of the catalogue (single-unit-8t)"),
+        ({"truck": "single"}, "truck must be a name of the catalogue (single-unit-8t, tractor"),
         ({"truck": "mine.toml"}, "truck file mine.toml cannot be read"),
         (
             {"column_shape": "round"},

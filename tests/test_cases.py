@@ -41,7 +41,7 @@ def test_what_is_no_collision(changes, message):
 def test_many_collisions_keep_their_order_and_shape():
     random = np.random.default_rng(0)
     count = 2 * CHUNK + 10
-    trucks = [TRUCK.with_mass(mass) for mass in random.uniform(6e3, 20e3, count)]
+    trucks = [TRUCK.loaded_to(mass) for mass in random.uniform(6e3, 20e3, count)]
     mass, damping = random.uniform(3e3, 1e5, (3, 1)), random.uniform(0.0, 0.1, count)
     shape, parts = parameter_chunks(trucks, mass, 1e8, damping, 20.0)
     assert shape == (3, count)

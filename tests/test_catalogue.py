@@ -1,12 +1,17 @@
+import dataclasses
 import hashlib
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import pierimpact
+from pierimpact import EquivalentPier, simulate
 from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError
+from pierimpact.collision.averages import largest_average_force
+from pierimpact.design.codes import KIP
 from pierimpact.files.trucks import load_truck, read_truck_file, truck_names
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.spread import Lognormal, Uniform
@@ -181,8 +186,14 @@ def test_a_missing_parameter_or_spring(tmp_path):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("single-unit", r"catalogue \(single-unit-8t\).*did you mean single-unit-8t\?"),
-        ("zzz", r"must be a name of the catalogue \(single-unit-8t\) or the path of a .toml file"),
+        (
+            "single-unit",
+            r"catalogue \(single-unit-8t, tractor-trailer-36t\).*did you mean single-unit-8t\?",
+        ),
+        (
+            "zzz",
+            r"be a name of the catalogue \(single-unit-8t, tractor-trailer-36t\) or the path of",
+        ),
         ("nowhere.toml", "truck file nowhere.toml cannot be read: No such file"),
     ],
 )
@@ -253,3 +264,98 @@ def test_friction_may_begin_at_zero(tmp_path):
     friction = with_spread("low = 0\nhigh = 43", REFERENCE[start:])
     path.write_text(REFERENCE[:start] + friction, encoding="utf-8")
     assert load_truck(path).spread["friction_force"] == Uniform(0.0, 2.0)
+
+
+TRACTOR_TRAILER = load_truck("tractor-trailer-36t")
+RIGID = EquivalentPier.from_frequency(mass=10e3, frequency=5000.0)
+MPH = 1609.344 / 3600.0
+
+
+def averages(truck):
+    """The largest averages of the contact force in the first 60 ms, over 10 and 25 ms."""
+    history = simulate(truck, RIGID, 50 * MPH, duration=0.06)
+    return history, [largest_average_force(history, window) for window in (0.010, 0.025)]
+
+
+def test_the_tractor_trailer_gives_the_two_published_averages_on_a_rigid_pier():
+    history, (short, long) = averages(TRACTOR_TRAILER)
+    assert short.force == pytest.approx(900 * KIP, rel=0.005)
+    assert long.force == pytest.approx(600 * KIP, rel=0.005)
+    # Both are of the first peak, and the trailer arrives long after it.
+    assert short.start + 0.010 < long.start + 0.026 < 0.06
+    assert history.cargo_contact_time > 0.06
+
+
+@pytest.mark.parametrize("share", [0.4, 0.6, 2.0, 4.0])
+def test_the_averages_say_nothing_about_the_stiffness_of_the_engine(share):
+    engine = TRACTOR_TRAILER.engine_spring
+    other = dataclasses.replace(
+        engine,
+        stiffness=share * engine.stiffness,
+        unloading_stiffness=share * engine.unloading_stiffness,
+    )
+    before, same = averages(TRACTOR_TRAILER)
+    history, found = averages(dataclasses.replace(TRACTOR_TRAILER, engine_spring=other))
+    for one, another in zip(found, same, strict=True):
+        assert one.force == pytest.approx(another.force, rel=0.015)
+    # The peak itself goes with the square root.
+    rise = [own.engine_peak.reaction - 1.78e6 for own in (history, before)]
+    assert rise[0] / rise[1] == pytest.approx(share**0.5, rel=0.06)
+
+
+def test_the_averages_follow_from_impulse_and_plateaus():
+    # Before the blow both plateaus act, and the engine that rebounds leaves spring 1 without force.
+    own, engine = TRACTOR_TRAILER, TRACTOR_TRAILER.engine_spring
+    m1, k, ku = own.engine_mass, engine.stiffness, engine.unloading_stiffness
+    P1, P2 = engine.plateau_force, own.body_spring.plateau_force
+    v1 = ((50 * MPH) ** 2 - 2.0 * P1 * engine.plateau_length / m1) ** 0.5
+    blow = m1 * v1 * (1.0 + engine.restitution)
+    lasting = np.pi / 2.0 * (m1 / k) ** 0.5 * (1.0 + (k / ku) ** 0.5)
+    assert lasting < 0.010
+    _, found = averages(own)
+    for window, average in zip((0.010, 0.025), found, strict=True):
+        expected = blow + P2 * window + P1 * (window - lasting)
+        assert average.force * window == pytest.approx(expected, rel=0.01)
+    assert own.mass == pytest.approx(36.3e3)
+    assert sum((P1, P2)) == pytest.approx(1.78e6)
+    assert blow - P1 * lasting == pytest.approx(22.2e3, rel=0.02)
+
+
+def test_the_tractor_trailer_is_not_passed_off_as_the_one_tested():
+    truck_file = read_truck_file("tractor-trailer-36t")
+    assert truck_file.status == "illustrative"
+    fitted = {p.name for p in truck_file.parameters if p.status == "calibrated"}
+    assert fitted == {"engine_mass", "body_spring.plateau_force"}
+    assert {p.status for p in truck_file.parameters} == {"calibrated", "assumed"}
+    assert set(truck_file.truck.spread) == set(QUANTITIES)
+
+
+def test_a_mass_range_is_read_with_its_source(tmp_path):
+    truck_file = read_truck_file("single-unit-8t")
+    assert truck_file.truck.mass_range == truck_file.mass_range[:2] == (5e3, 12e3)
+    assert truck_file.mass_range.status is Certainty.ASSUMED
+    assert "judgement of this project" in truck_file.mass_range.source
+    path = tmp_path / "mine.toml"
+    start, end = REFERENCE.index("[mass_range]"), REFERENCE.index("[engine_mass]")
+    path.write_text(REFERENCE[:start] + REFERENCE[end:], encoding="utf-8")
+    assert read_truck_file(path).mass_range is read_truck_file(path).truck.mass_range is None
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("low = 5\n", "", "mass_range must be a table with low, high, unit, source, status, got {"),
+        ("low = 5\n", "lowest = 5\n", "mass_range must be a table with low, high, unit, source"),
+        ("low = 5\n", 'low = "5"\n', "mass_range.low must be a number, got '5'"),
+        ("low = 5\n", "low = 0\n", "mass_range must be positive, got 0"),
+        ("low = 5\n", "low = 13\n", "mass_range must run upward, got 13000 kg to 12000 kg"),
+        ("low = 5\n", "low = 9\n", "mass_range must have the truck's own mass in it, 8000 kg"),
+        ('unit = "t"', 'unit = "kN"', "mass_range.low must be a mass (kg, t, lb), got '5 kN'"),
+    ],
+)
+def test_a_bad_mass_range_is_one_line(tmp_path, old, new, message):
+    path = tmp_path / "mine.toml"
+    path.write_text(REFERENCE.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        load_truck(path)
+    assert "\n" not in str(caught.value)

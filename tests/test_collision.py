@@ -219,10 +219,10 @@ def test_reference_truck_makes_no_contact_at_20_km_h():
 def test_governing_peak_is_the_larger(mass):
     for stiffness in np.geomspace(1e6, 1e10, 9):
         pier = EquivalentPier(mass=8e3, stiffness=stiffness)
-        history = simulate(TRUCK.with_mass(mass), pier, speed=25.0)
+        history = simulate(TRUCK.loaded_to(mass), pier, speed=25.0)
         reactions = [history.engine_peak.reaction, history.cargo_peak.reaction]
         assert history.governing_peak.reaction == max(reactions)
-        peaks = peak_reactions(TRUCK.with_mass(mass), 8e3, stiffness, 0.05, 25.0)
+        peaks = peak_reactions(TRUCK.loaded_to(mass), 8e3, stiffness, 0.05, 25.0)
         assert peaks.governing == max(peaks.engine, peaks.cargo)
 
 

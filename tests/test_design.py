@@ -124,7 +124,7 @@ def test_speeds_at_contact_are_those_of_the_histories():
 @pytest.mark.parametrize("level", LEVELS)
 def test_heavier_trucks_stay_within_the_targets(level):
     # Outside the domain, but nothing in the formulas gives way.
-    case = study.with_truck(domain.sample(600, 2), TRUCK.with_mass(36e3))
+    case = study.with_truck(domain.sample(600, 2), TRUCK.loaded_to(36e3))
     exact, predicted = study.full_model(case), study.predictions(case, level)
     ratios = study.summary(predicted.governing / exact.governing)
     assert 0.98 <= ratios["mean"] <= 1.10
@@ -168,7 +168,7 @@ def test_one_pier_and_many_agree(level):
     mass = np.exp(random.uniform(np.log(3e3), np.log(1e5), 3000))
     stiffness = mass * (2.0 * np.pi * np.exp(random.uniform(np.log(3), np.log(200), 3000))) ** 2
     damping, speed = random.uniform(0.0, 0.2, (2, 1)), random.uniform(5.0, 35.0, 3000)
-    trucks = [TRUCK.with_mass(m) for m in random.uniform(6e3, 40e3, 3000)]
+    trucks = [TRUCK.loaded_to(m) for m in random.uniform(6e3, 40e3, 3000)]
     found = design_reactions(trucks, mass, stiffness, damping, speed, level=level)
     assert found.engine.shape == found.cargo.shape == found.reaction.shape == (2, 3000)
     assert np.isnan(found.cargo).any()
@@ -293,7 +293,7 @@ def test_warnings_name_value_and_range(changes, sentence):
 
 
 def test_a_tractor_trailer_warns():
-    (warning,) = design_reaction(TRUCK.with_mass(36e3), PIER, SPEED).warnings
+    (warning,) = design_reaction(TRUCK.loaded_to(36e3), PIER, SPEED).warnings
     assert warning.startswith("total mass of the truck 36 t is outside the studied 6 to 20 t:")
 
 

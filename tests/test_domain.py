@@ -82,7 +82,7 @@ def test_no_sample_warns_and_each_value_outside_does():
 
 
 def test_a_bound_met_but_for_round_off_is_met():
-    truck = load_truck("single-unit-8t").with_mass(20e3)
+    truck = load_truck("single-unit-8t").loaded_to(20e3)
     pier = EquivalentPier(
         mass=3e3, stiffness=3e3 * (2.0 * math.pi * 150.0) ** 2, damping_ratio=0.07
     )

@@ -100,7 +100,7 @@ def test_no_collisions_give_no_peaks():
 
 
 def test_a_sequence_of_trucks_is_an_axis():
-    trucks = [TRUCK.with_mass(mass) for mass in (8e3, 16e3, 32e3)]
+    trucks = [TRUCK.loaded_to(mass) for mass in (8e3, 16e3, 32e3)]
     trucks.append(dataclasses.replace(TRUCK, friction_on="pier"))
     stiffness = np.array([[50e6], [500e6]])
     peaks = peak_reactions(trucks, 8e3, stiffness, 0.05, 22.2)
@@ -112,7 +112,7 @@ def test_a_sequence_of_trucks_is_an_axis():
 
 
 def test_any_kind_of_sequence_will_do():
-    trucks = [TRUCK, TRUCK.with_mass(20e3)]
+    trucks = [TRUCK, TRUCK.loaded_to(20e3)]
     arrays = peak_reactions(trucks, np.array([8e3, 9e3]), 284e6, 0.05, np.array([20.0, 22.0]))
     plain = peak_reactions(tuple(trucks), [8000, 9000], 284e6, 0.05, (20, 22))
     assert_same(fields(plain), fields(arrays))

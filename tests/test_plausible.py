@@ -44,3 +44,30 @@ def test_an_unusual_value_is_named_on_page_one(change, key, words):
 def test_ranges_are_of_physical_keys():
     assert set(USUAL) <= set(PHYSICAL_KEYS)
     assert all(0.0 < least < most for least, most in USUAL.values())
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (
+            {"truck_mass": "29 t", "units": "SI"},
+            "A 29 000 kg mass on the springs of single-unit-8t is ",
+        ),
+        (
+            {"truck_mass": "64000 lb"},
+            "A 64 000 lb mass on the springs of single-unit-8t is another",
+        ),
+        ({"truck_mass": "9 t"}, ""),
+        ({"truck_mass": "29 t", "truck": "tractor-trailer-36t"}, ""),
+        (
+            {"truck_mass": "19 t", "truck": "tractor-trailer-36t"},
+            "A 41 888 lb mass on the springs of tra",
+        ),
+    ],
+)
+def test_a_mass_beyond_the_trucks_range_is_named_on_page_one(change, words):
+    case = case_from(US_CASE | {"member_forces": "static"} | change)
+    found = [str(line) for line in limitations(calculate(case)) if "another truck" in str(line)]
+    assert len(found) == bool(words)
+    assert not words or found[0].startswith(words)
+    assert not words or "The range is assumed: judgement of this project" in found[0]

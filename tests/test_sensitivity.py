@@ -34,7 +34,7 @@ def found():
 def changed(name, value):
     """Return truck, pier and speed with one of them changed."""
     if name == "mass":
-        return TRUCK.with_mass(value), PIER, SPEED
+        return TRUCK.loaded_to(value), PIER, SPEED
     if name == "impact_height":
         return TRUCK, COLUMN.equivalent(value, 0.04), SPEED
     if name == "frequency":
@@ -88,7 +88,7 @@ def test_heights_stay_on_the_column_and_this_pier_is_in_the_spectrum(found):
 
 
 def test_changes_that_cannot_be_are_left_out():
-    light = TRUCK.with_mass(1.2 * TRUCK.engine_mass)
+    light = TRUCK.loaded_to(1.2 * TRUCK.engine_mass)
     slow = sensitivity(light, COLUMN, PIER, HEIGHT, 2.0)
     assert slow.slower is None
     assert slow.lighter is None

@@ -126,7 +126,7 @@ def test_the_full_model_is_peak_reactions():
 
 
 def test_another_truck_takes_the_place_of_the_sampled_ones():
-    truck = load_truck("single-unit-8t").with_mass(36e3)
+    truck = load_truck("single-unit-8t").loaded_to(36e3)
     case = domain.sample(20, 0)
     changed = study.with_truck(case, truck)
     assert (changed.engine.mass + changed.body.mass == 36e3).all()

@@ -1,10 +1,11 @@
 import dataclasses
 import math
 import pickle
+import warnings
 
 import pytest
 
-from pierimpact import CrushSpring, InputError, Lognormal, Truck, Uniform
+from pierimpact import CrushSpring, InputError, Lognormal, MassRangeWarning, Truck, Uniform
 
 SPRING = CrushSpring(
     plateau_force=150e3, plateau_length=0.5, stiffness=150e6, unloading_stiffness=900e6
@@ -109,3 +110,49 @@ def test_bad_spreads_are_named(spread, message):
 
 def test_friction_may_be_none_at_all():
     assert Truck(**EXAMPLE, spread={"friction_force": Uniform(0.0, 1.3)}).spread
+
+
+@pytest.mark.parametrize(("mass", "inside"), [(4.9e3, False), (5e3, True), (12e3, True)])
+def test_a_truck_outside_its_mass_range_warns(mass, inside):
+    truck = Truck(**EXAMPLE, mass_range=(5e3, 12e3))
+    with warnings.catch_warnings(record=True) as raised:
+        warnings.simplefilter("always")
+        laden = truck.with_mass(mass)
+        assert laden == truck.loaded_to(mass)
+    assert laden.in_mass_range is inside
+    assert laden.mass_range == truck.mass_range
+    assert len(raised) == (not inside)
+    assert all(own.category is MassRangeWarning and own.filename == __file__ for own in raised)
+
+
+def test_the_warning_is_one_sentence_with_the_range():
+    truck = Truck(**EXAMPLE, mass_range=(5e3, 12e3))
+    sentence = (
+        "^A 29 t mass on the springs of test truck is another truck: they stand for a total of "
+        "5 t to 12 t\\.$"
+    )
+    with pytest.warns(MassRangeWarning, match=sentence):
+        truck.with_mass(29e3)
+
+
+def test_a_mass_range_does_not_make_another_truck():
+    plain, limited = Truck(**EXAMPLE), Truck(**EXAMPLE, mass_range=(5e3, 12e3))
+    assert plain == limited
+    assert hash(plain) == hash(limited)
+    assert pickle.loads(pickle.dumps(limited)).mass_range == (5e3, 12e3)
+    assert plain.in_mass_range
+
+
+@pytest.mark.parametrize(
+    ("mass_range", "message"),
+    [
+        (5e3, r"mass_range must be two masses, got 5000\.0"),
+        ((5e3, 6e3, 7e3), r"mass_range must be two masses, got \(5000\.0, 6000\.0, 7000\.0\)"),
+        ((0.0, 6e3), "mass_range must be positive, got 0"),
+        ((5e3, math.inf), "mass_range must be finite, got inf"),
+        ((7e3, 6e3), "mass_range must run upward, got 7000 kg to 6000 kg"),
+    ],
+)
+def test_a_bad_mass_range_is_named(mass_range, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        Truck(**EXAMPLE, mass_range=mass_range)

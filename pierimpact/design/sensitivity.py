@@ -83,7 +83,7 @@ def sensitivity(
     def at_mass(value: float) -> Collision | None:
         if value <= truck.engine_mass:
             return None
-        return Collision(truck.with_mass(value), pier, speed)
+        return Collision(truck.loaded_to(value), pier, speed)
 
     def at_height(value: float) -> Collision | None:
         if value >= column.height:

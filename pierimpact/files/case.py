@@ -236,7 +236,7 @@ def _with_mass(truck: Truck, mass: float | None) -> Truck:
     if mass is None:
         return truck
     try:
-        return truck.with_mass(mass)
+        return truck.loaded_to(mass)
     except InputError as error:  # the truck calls it mass
         raise InputError(f"truck_{error}") from None
 

@@ -36,6 +36,15 @@ class Parameter(NamedTuple):
     spread_status: Certainty | None = None
 
 
+class MassRange(NamedTuple):
+    """The total masses that a truck's other parameters stand for."""
+
+    low: float  #: [kg]
+    high: float  #: [kg]
+    source: str
+    status: Certainty
+
+
 @dataclass(frozen=True, kw_only=True)
 class TruckFile:
     """A truck, with all that its file says about it."""
@@ -47,6 +56,7 @@ class TruckFile:
     parameters: tuple[Parameter, ...]  #: in the order of `Truck` and `CrushSpring`
     file_name: str  #: without its folder
     sha256: str  #: of the file's bytes, in hexadecimal
+    mass_range: MassRange | None = None
 
     def __getitem__(self, name: str) -> Parameter:
         """Return the parameter called `name`."""
@@ -112,6 +122,7 @@ def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile
         for heading in ("name", "description", "source", "status")
     )
     certainty = _certainty("status", status)
+    mass_range = _mass_range(table.pop("mass_range")) if "mass_range" in table else None
     entries = _with_dotted_names(table)
     for key in entries:
         known(key, PARAMETERS, "a truck parameter")
@@ -119,15 +130,37 @@ def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile
     values: dict[str, Any] = {parameter.name: parameter.value for parameter in parameters}
     values |= {spring: _take_spring(spring, values) for spring in SPRINGS}
     spread = {parameter.name: parameter.spread for parameter in parameters if parameter.spread}
+    truck = Truck(
+        name=name,
+        source=source,
+        spread=spread,
+        mass_range=mass_range and mass_range[:2],
+        **values,
+    )
+    if not truck.in_mass_range:
+        raise InputError(f"mass_range must have the truck's own mass in it, {truck.mass:g} kg")
     return TruckFile(
-        truck=Truck(name=name, source=source, spread=spread, **values),
+        truck=truck,
         description=description,
         source=source,
         status=certainty,
         parameters=parameters,
         file_name=file_name,
         sha256=sha256,
+        mass_range=mass_range,
     )
+
+
+def _mass_range(entry: object) -> MassRange:
+    keys = ("low", "high", "unit", "source", "status")
+    if not isinstance(entry, dict) or entry.keys() != set(keys):
+        raise InputError(f"mass_range must be a table with {', '.join(keys)}, got {brief(entry)}")
+    unit, source, status = (_text(f"mass_range.{key}", entry[key]) for key in keys[2:])
+    low, high = (
+        parse(f"mass_range.{key}", f"{_number('mass_range', key, entry):.15g} {unit}", "mass")
+        for key in keys[:2]
+    )
+    return MassRange(low, high, source, _certainty("mass_range.status", status))
 
 
 def _with_dotted_names(table: Mapping[str, Any]) -> dict[str, Any]:

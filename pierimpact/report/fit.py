@@ -73,7 +73,7 @@ def fit_files(
         When a file breaks a rule, or the numbers of speeds or piers do not fit.
     """
     start_file = read_truck_file(start)
-    truck = start_file.truck if mass is None else start_file.truck.with_mass(mass)
+    truck = start_file.truck if mass is None else start_file.truck.loaded_to(mass)
     files = tuple(read_record_file(path) for path in paths)
     records = []
     for file, speed, pier in zip(

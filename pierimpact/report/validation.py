@@ -32,29 +32,12 @@ from pierimpact.plots import validation as spectrum_figures
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.symbols import SYMBOLS
-from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
 
 Array = NDArray[np.float64]
 
 _FEW = 2000  # cases are enough for one truck or one way out of the domain
 _RATIOS = ("mean", "coefficient of variation", "1st percentile", "smallest", "largest")
-
-#: A truck quite unlike the reference, to see how the formulas do with it: its parameters are round
-#: numbers, and those of no truck that was tested.
-TRACTOR_TRAILER = Truck(
-    name="tractor-trailer-36t",
-    engine_mass=1200.0,
-    body_mass=34.8e3,
-    engine_spring=CrushSpring(
-        plateau_force=300e3, plateau_length=0.8, stiffness=250e6, unloading_stiffness=1500e6
-    ),
-    body_spring=CrushSpring(
-        plateau_force=900e3, plateau_length=3.0, stiffness=20e6, unloading_stiffness=120e6
-    ),
-    friction_force=100e3,
-    source="illustrative round numbers",
-)
 
 
 @dataclass(frozen=True)

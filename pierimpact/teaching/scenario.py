@@ -121,7 +121,7 @@ class Scenario:
                 own[f"{body}_spring"] = CrushSpring(**law)
             except InputError as error:
                 raise InputError(f"{body} spring: {error}") from None
-        return replace(REFERENCE, **own).with_mass(self.truck_mass)
+        return replace(REFERENCE, **own).loaded_to(self.truck_mass)
 
     @cached_property
     def column(self) -> PierColumn:

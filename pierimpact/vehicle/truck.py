@@ -1,9 +1,10 @@
 """The truck: two masses that strike the pier through two crush springs."""
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from pierimpact.checks import InputError, not_negative, one_of, positive
+from pierimpact.checks import InputError, brief, not_negative, one_of, positive
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.spread import Spread, checked_spreads
 
@@ -15,6 +16,10 @@ PARAMETERS = (
     *(f"{spring}.{name}" for spring in SPRINGS for name in CrushSpring.__dataclass_fields__),
 )
 QUANTITIES = tuple(name for name in PARAMETERS if name != "friction_on")
+
+
+class MassRangeWarning(UserWarning):
+    """A truck is lighter or heavier than its other parameters stand for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,12 +49,15 @@ class Truck:
     spread : mapping of str to Spread, optional
         How uncertain parameters are, by names as "engine_spring.stiffness"; the others are known.
         Trucks that differ in nothing else are equal.
+    mass_range : tuple of float, optional
+        Lowest and highest total mass that the other parameters stand for; None where nothing is
+        known of it [kg]. As with the spread, it does not make another truck.
 
     Raises
     ------
     InputError
-        When a mass is not positive, the friction is negative, `friction_on` is unknown, or a spread
-        is of no parameter or lets it be zero.
+        When a mass is not positive, the friction is negative, `friction_on` is unknown, a spread
+        is of no parameter or lets it be zero, or the mass range does not run upward.
     """
 
     name: str
@@ -61,6 +69,7 @@ class Truck:
     friction_on: str = "road"
     source: str = "not given"
     spread: Mapping[str, Spread] = field(default_factory=dict, compare=False, repr=False)
+    mass_range: tuple[float, float] | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         rules = {"engine_mass": positive, "body_mass": positive, "friction_force": not_negative}
@@ -71,14 +80,37 @@ class Truck:
             if not isinstance(getattr(self, name), CrushSpring):
                 raise InputError(f"{name} must be a CrushSpring, got {getattr(self, name)!r}")
         object.__setattr__(self, "spread", checked_spreads(self.spread, QUANTITIES))
+        if self.mass_range is not None:
+            object.__setattr__(self, "mass_range", _upward(self.mass_range))
 
     @property
     def mass(self) -> float:
         """Total mass m1 + m2 [kg]."""
         return self.engine_mass + self.body_mass
 
+    @property
+    def in_mass_range(self) -> bool:
+        """Whether the mass is one that the other parameters stand for, as far as is known."""
+        return self.mass_range is None or self.mass_range[0] <= self.mass <= self.mass_range[1]
+
     def with_mass(self, mass: float) -> "Truck":
         """Return the same truck with more or less cargo.
+
+        Arguments, result and errors as in `loaded_to`.
+
+        Warns
+        -----
+        MassRangeWarning
+            Where the springs do not stand for a truck of that mass.
+        """
+        truck = self.loaded_to(mass)
+        if not truck.in_mass_range and truck.mass_range is not None:
+            masses = (f"{value / 1e3:.3g} t" for value in (truck.mass, *truck.mass_range))
+            warnings.warn(another_truck(self.name, *masses), MassRangeWarning, stacklevel=2)
+        return truck
+
+    def loaded_to(self, mass: float) -> "Truck":
+        """Return the same truck with more or less cargo, whether or not within its mass range.
 
         Only m2 changes: springs, engine and friction force stay as they are. A mass that is stated
         is known, so that m2 has no spread any more.
@@ -100,3 +132,23 @@ class Truck:
             )
         spread = {name: spread for name, spread in self.spread.items() if name != "body_mass"}
         return replace(self, body_mass=mass - self.engine_mass, spread=spread)
+
+
+def another_truck(name: str, mass: str, low: str, high: str) -> str:
+    """Return the sentence that warns of a mass outside a truck's range, masses with their units."""
+    return (
+        f"A {mass} mass on the springs of {name} is another truck: they stand for a total of {low} "
+        f"to {high}."
+    )
+
+
+def _upward(mass_range: tuple[float, float]) -> tuple[float, float]:
+    try:
+        low, high = mass_range
+    except (TypeError, ValueError):
+        message = f"mass_range must be two masses, got {brief(mass_range)}"
+        raise InputError(message) from None
+    low, high = positive("mass_range", low), positive("mass_range", high)
+    if low > high:
+        raise InputError(f"mass_range must run upward, got {low:g} kg to {high:g} kg")
+    return low, high

@@ -17,6 +17,7 @@ from pierimpact.report.document.blocks import (
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, printed, rounded, unit_size
+from pierimpact.vehicle.truck import another_truck
 
 #: Window of the average that the force of AASHTO LRFD was taken from, as read in NCHRP Report 892
 #: [s].
@@ -188,6 +189,16 @@ def limitations(calculation: Calculation) -> Iterator[str]:
         yield (
             f"Unusual: {meaning} {value} {unit}".rstrip()
             + f", where {least} to {most} is usual. Check the value and its unit."
+        )
+    mass_range = case.truck_file.mass_range
+    if mass_range is not None and not case.truck.in_mass_range:
+        masses = (
+            str(printed(value, "mass", case.inputs.units, given=True))
+            for value in (case.truck.mass, mass_range.low, mass_range.high)
+        )
+        yield (
+            f"{another_truck(case.truck.name, *masses)} The range is {mass_range.status.words}: "
+            f"{mass_range.source}."
         )
     if calculation.beam_forces is None and not calculation.static_forces.hold:
         yield calculation.static_forces.sentence
