@@ -62,7 +62,7 @@ class Step:
 class PierColumn:
     """A column between two ends; deflects in flexure and shear (Timoshenko beam).
 
-    Heights z run from the base upward.
+    Heights z run upward from the ground, where the base is unless the column is embedded.
 
     Parameters
     ----------

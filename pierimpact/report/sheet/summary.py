@@ -64,7 +64,7 @@ class Summary(Section):
             (
                 "Design reaction",
                 self.shown(result.design_force, "force"),
-                f"static, at {height} above the base; by the {result.governing_method}",
+                f"static, at {height} above the ground; by the {result.governing_method}",
             ),
             ("Design procedure", self.shown(design.reaction, "force"), parts),
             (
@@ -91,7 +91,7 @@ class Summary(Section):
             low, middle, high = band.quantiles()
             ends = f"{self.number(low, 'force')}–{self.number(high, 'force')}"
             middle_words = (
-                f"5 to 95 % of trucks of this spread; middle {self.number(middle, 'force')}"
+                f"5 to 95 % of trucks of this spread; median {self.number(middle, 'force')}"
             )
             results.append(("Band", Printed(ends, self.unit("force")), middle_words))
             name, share = next(iter(band.influence.items()))
