@@ -266,7 +266,8 @@ class PierColumn:
         struck = self.struck_at(impact_height)
         pier = struck.equivalent(damping_ratio)
         if not struck.static_forces.hold:
-            warnings.warn(struck.static_forces.sentence, StaticForcesWarning, stacklevel=2)
+            words = f"{struck.static_forces.sentence} PierColumn.beam gives it."
+            warnings.warn(words, StaticForcesWarning, stacklevel=2)
         return pier
 
     def beam(

@@ -1,5 +1,6 @@
 """The first page: head, results, warnings and contents."""
 
+import math
 from collections.abc import Iterator, Sequence
 
 from pierimpact.design.codes import aashto_lrfd
@@ -178,8 +179,11 @@ def limitations(calculation: Calculation) -> Iterator[str]:
         if demand.ratio is not None and demand.ratio < UNSAFE:
             yield (
                 f"The column as a beam takes {rounded(1.0 / demand.ratio, 3)} times the {name} "
-                "that the static reaction gives: one degree of freedom does not hold here."
+                "that the static reaction gives: one degree of freedom does not represent this "
+                "column."
             )
+    if case.column.top_mass and math.isinf(case.column.supports[1].stiffness):
+        yield "The mass at the top has no effect: the top of this column does not move sideways."
     for key, *values in unusual(case.inputs):
         _, quantity, meaning, _ = BY_KEY[key]
         value, unit = printed(values[0], quantity, case.inputs.units, given=True)
