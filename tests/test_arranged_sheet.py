@@ -110,6 +110,9 @@ def test_the_inputs_give_every_section(sheet):
         "Shape of the section, from 3 m upward": ("circular", ""),
         "Column diameter, from 3 m upward": ("1.5", "m"),
     }
+    step = {"height": "3 m", "column_shape": "oblong", "column_width": "2 m", "column_depth": "1 m"}
+    symbols = Sheet(case_from(CASE | {"steps": [step]})).inputs.symbols()
+    assert (symbols["b"], symbols["h"]) == ("tab-inputs", "tab-inputs")
 
 
 def test_a_struck_end_has_no_shear_beyond_it_and_yielding_has_its_symbol():

@@ -29,12 +29,11 @@ class Inputs(Section):
         given: Any = self.case.given.get("steps", ())
         for step, typed in zip(inputs.steps, given, strict=True):
             height = self.shown(step.height, "length", given=True)
-            for key in SectionInputs.model_fields:
-                if (value := getattr(step, key)) is not None:
-                    symbol = BY_KEY[key]
-                    symbol = symbol._replace(meaning=f"{symbol.meaning}, from {height} upward")
-                    source = "case file" + self._as_given(symbol, value, typed[key])
-                    rows.append(self._row(symbol, value, "given", source))
+            for key in _keys_of(step):
+                symbol, value = BY_KEY[key], getattr(step, key)
+                symbol = symbol._replace(meaning=f"{symbol.meaning}, from {height} upward")
+                source = "case file" + self._as_given(symbol, value, typed[key])
+                rows.append(self._row(symbol, value, "given", source))
         return rows
 
     def _as_given(self, symbol: Symbol, value: float | str, typed: object) -> str:
@@ -89,8 +88,17 @@ class Inputs(Section):
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of truck and case, by name."""
         truck = [parameter.name for parameter in self.case.truck_file.parameters]
-        tables = dict.fromkeys(truck, "tab-truck") | dict.fromkeys(self._keys(), "tab-inputs")
+        own = [
+            *self._keys(),
+            *(key for step in self.case.inputs.steps for key in _keys_of(step)),
+        ]
+        tables = dict.fromkeys(truck, "tab-truck") | dict.fromkeys(own, "tab-inputs")
         return {NAMES[key]: table for key, table in tables.items()}
+
+
+def _keys_of(section: SectionInputs) -> list[str]:
+    """Return the keys of a cross-section that have a value."""
+    return [key for key in SectionInputs.model_fields if getattr(section, key) is not None]
 
 
 def _table(label: str, caption: str, heading: str, rows: list[list[Inline]]) -> Block:
