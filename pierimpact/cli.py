@@ -9,7 +9,7 @@ from typing import Any
 
 import pierimpact
 from pierimpact.checks import InputError, one_of
-from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.pier.equivalent import DAMPING_RATIO, EquivalentPier
 from pierimpact.teaching.launch import DEFAULT_FOLDER, TeachError, open_notebooks
 from pierimpact.units import parse
 
@@ -27,9 +27,9 @@ failed; 130 if interrupted, which leaves complete files only.
 _FIT = """\
 Fit the crush-law parameters of a truck to force records, measured or from finite elements. A
 record is a CSV file with a heading such as: time [ms], contact force [kN]; the force may also be
-the reaction. Total mass, speed and pier count as known; without a pier it is rigid. Printed is
+the reaction. Total mass, speed and pier count as known; without a pier it is rigid. The table has
 every parameter with its start, its fitted value with the standard error, and what the records do
-not show: that stays at its start.
+not show, which stays at its start.
 """
 _FIT_EXIT_CODES = "Exit code: 0 if a truck was fitted; 2 if the input is bad; 1 if anything failed."
 
@@ -122,7 +122,8 @@ def _add_fit(commands: Any) -> None:
         "pier-mass": {"metavar": "MASS", "help": "equivalent mass of the pier"},
         "pier-stiffness": {"metavar": "STIFFNESS", "help": "its stiffness at the impact height"},
         "damping-ratio": {
-            "metavar": "RATIO", "type": float, "help": "its damping ratio (default: 0.05)",
+            "metavar": "RATIO", "type": float,
+            "help": f"its damping ratio (default: {DAMPING_RATIO:g})",
         },
         "filter": {
             "metavar": "FREQUENCY",
@@ -206,15 +207,19 @@ def _piers(options: argparse.Namespace) -> list[EquivalentPier | None]:
     damping = options.damping_ratio
     if options.case:
         if (mass, stiffness, damping) != (None, None, None):
-            raise InputError("--case has the pier: leave out --pier-mass and the others of a pier")
+            raise InputError(
+                "--case has the pier: leave out --pier-mass, --pier-stiffness and --damping-ratio"
+            )
         return [_pier_of(path) for path in options.case]
     if (mass is None) != (stiffness is None):
         raise InputError("--pier-mass and --pier-stiffness go together")
     if mass is None or stiffness is None:
         if damping is not None:
-            raise InputError("--damping-ratio belongs to a pier: give --pier-mass and the others")
+            raise InputError(
+                "--damping-ratio belongs to a pier: give --pier-mass and --pier-stiffness as well"
+            )
         return [None]
-    damping = 0.05 if damping is None else damping
+    damping = DAMPING_RATIO if damping is None else damping
     return [EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=damping)]
 
 
@@ -225,7 +230,7 @@ def _pier_of(path: str) -> EquivalentPier:
     height, *more = case.impact_heights
     if more:
         raise InputError(f"{path}: impact_height must be a length for a fit, got 'auto'")
-    return case.column.equivalent(height, case.inputs.damping_ratio)
+    return case.column.struck_at(height).equivalent(case.inputs.damping_ratio)
 
 
 @contextmanager

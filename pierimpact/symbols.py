@@ -208,13 +208,14 @@ R_D | R_\mathrm{D} | force | reaction of the design procedure
 R_M | R_\mathrm{M} | force | governing peak of the full model
 V_max | V_\mathrm{max} | force | largest shear
 M_max | M_\mathrm{max} | moment | largest moment
+Ry | R_\mathrm{y} | force | yield reaction
 
 # The full model and the shape, where no step gives them
 delta_i | \delta_i | length | crush of a spring
 E_i | E_i | force | envelope of a spring’s force
 F_i | F_i | force | force of a spring
 F_f | F_\mathrm{f} | force | friction on the body
-height | z | length | height above the base
+height | z | length | height above the ground
 x_i | x_i | length | displacement of engine (i = 1) or body (i = 2)
 x_p | x_\mathrm{p} | length | displacement of the pier at the impact height
 R_t | R | force | reaction $k_\mathrm{p} x_\mathrm{p}$

@@ -14,6 +14,7 @@ from pierimpact import InputError
 from pierimpact.files.case import case_from
 from pierimpact.plots.elevation import draw_elevation
 from pierimpact.report.sheet import Sheet
+from pierimpact.report.sheet.summary import limitations
 
 CASE = {
     "column_shape": "hollow circular",
@@ -82,11 +83,55 @@ def test_masses_add_up_to_the_equivalent_mass(sheet):
     masses = list(map(number, cells(table, 5)))
     assert sum(masses[:-1]) == pytest.approx(masses[-1], rel=2e-4)
     assert masses[-1] == pytest.approx(sheet.calculation.pier.mass, rel=1e-4)
-    per_length = list(map(number, cells(sheet.pier.parts(), 3)))
+    per_length = list(map(number, cells(sheet.pier.parts(), 6)))
     for part, mass, per in zip(cells(table, 4), masses, per_length, strict=False):
         assert number(part) * per == pytest.approx(mass, rel=2e-4)
     top = number(cells(table, 3)[-2])
     assert masses[-2] == pytest.approx(60e3 * top**2, rel=1e-3)
+
+
+def test_every_part_has_its_own_section(sheet):
+    table, column = sheet.pier.parts(), sheet.calculation.case.column
+    sections = [column.section, column.section, column.steps[0].section]
+    for place, name in ((1, "area"), (2, "second_moment"), (3, "shear_coefficient")):
+        expected = [getattr(section, name) for section in sections]
+        assert list(map(number, cells(table, place))) == pytest.approx(expected, rel=1e-4)
+    A, Iy, kappa, EI, GA, mbar = (list(map(number, cells(table, i))) for i in range(1, 7))
+    for part in range(3):
+        assert EI[part] == pytest.approx(0.6 * 28e3 * Iy[part], rel=2e-4)
+        assert GA[part] == pytest.approx(kappa[part] * A[part] * 28e3 / 2.4, rel=2e-4)
+        assert mbar[part] == pytest.approx(2450.0 * A[part], rel=2e-4)
+
+
+def test_the_inputs_give_every_section(sheet):
+    rows = sheet.inputs.case_table().data()["rows"]
+    above = {row[0]: (row[2].strip(), row[3]) for row in rows if "from 3 m upward" in row[0]}
+    assert above == {
+        "Shape of the section, from 3 m upward": ("circular", ""),
+        "Column diameter, from 3 m upward": ("1.5", "m"),
+    }
+    step = {"height": "3 m", "column_shape": "oblong", "column_width": "2 m", "column_depth": "1 m"}
+    symbols = Sheet(case_from(CASE | {"steps": [step]})).inputs.symbols()
+    assert (symbols["b"], symbols["h"]) == ("tab-inputs", "tab-inputs")
+
+
+def test_a_struck_end_has_no_shear_beyond_it_and_yielding_has_its_symbol():
+    case = CASE | {"impact_height": "3.0 m", "column_height": "3.0 m", "steps": []}
+    del case["top_stiffness"]
+    sheet = Sheet(case_from(case | {"speed": "80 km/h"}))
+    _, top, *_ = sheet.member_forces.table().data()["rows"]
+    assert top[2:5] == ["0", "", ""]
+    assert sheet.calculation.yielding is not None
+    assert sheet.member_forces.symbols()["Ry"] == "tab-yielding"
+
+
+def test_a_mass_at_a_top_that_does_not_move_is_named():
+    words = "The mass at the top has no effect"
+    case = CASE | {"member_forces": "static"}
+    pinned = {key: value for key, value in case.items() if key != "top_stiffness"}
+    for values, named in ((case, False), (pinned | {"top": "pinned"}, True)):
+        calculation = Sheet(case_from(values)).calculation
+        assert any(words in sentence for sentence in limitations(calculation)) == named
 
 
 def test_the_larger_of_both_methods_governs_unless_one_is_asked_for():
@@ -144,6 +189,11 @@ def test_the_page_says_which_method_governs(sheet):
         ({"top_mass": "60 kN"}, "top_mass must be a mass (kg, t, lb), got '60 kN'"),
         ({"member_forces": "both"}, "member_forces must be 'larger', 'beam' or 'static'"),
         ({"effective_stiffness": "6 GN*m^2"}, "give only one of stiffness_factor and"),
+        (
+            {"impact_height": "auto", "column_height": "1.2 m", "steps": []},
+            "impact_height may not be auto here: by the rule, impact_height must be at least 0 m "
+            "and at most the height 1.2 m of a column with fixed base and free top, got 1.35 m",
+        ),
         ({"impact_height": "9.1 m"}, "impact_height must be at least 0 m and at most the height"),
     ],
 )

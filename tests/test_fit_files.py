@@ -164,6 +164,13 @@ def test_a_case_file_gives_the_pier():
     assert pier == expected
 
 
+def test_a_slow_pier_of_a_case_is_fitted_without_a_warning_of_member_forces(tmp_path):
+    case = tmp_path / "slow.yaml"
+    text = (NOTEBOOKS / "tti-column.yaml").read_text("utf-8")
+    case.write_text(text.replace("column_height: 5.0 m", "column_height: 15.0 m"), "utf-8")
+    assert cli._pier_of(str(case)).frequency < 55.0
+
+
 # The figure and the notebook.
 
 

@@ -195,7 +195,7 @@ def test_tube_and_core_add(parts):
     assert column.shear_rigidity == pytest.approx(rigidity, rel=1e-9)
     mass = density * core.area + steel_density * tube.area
     assert column.mass_per_length == pytest.approx(mass, rel=1e-9)
-    assert density * filled.mass_area == pytest.approx(mass, rel=1e-9)
+    assert density * filled.values["Am"] == pytest.approx(mass, rel=1e-9)
     inertia = density * core.second_moment + steel_density * tube.second_moment
     assert density * filled.mass_second_moment == pytest.approx(inertia, rel=1e-9)
 

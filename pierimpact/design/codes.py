@@ -191,8 +191,8 @@ def jcss_hard_impact(speed: float, mass: float) -> CodeForce:
         height=Sourced(1.25, Certainty.READ),
         stiffness=stiffness,
         note="Probabilistic Model Code: F = v √(k m), on 0.25 × 1.50 m; by its own account on the "
-        "safe side. F is at most the lower of both yield forces, which then lasts m v / F. k is "
-        "lognormal, 300 ± 60 kN/m; here its mean.",
+        "safe side. F is at most the lower of the yield forces of vehicle and structure, and then "
+        "lasts m v / F. k is lognormal, 300 ± 60 kN/m; here its mean.",
     )
 
 

@@ -144,8 +144,15 @@ def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:
         truck=_with_mass(truck_file.truck, inputs.truck_mass),
         truck_file=truck_file,
     )
-    for impact_height in case.impact_heights:
-        case.column.struck_at(impact_height)  # an error here is better than one halfway
+    for impact_height in case.impact_heights:  # an error here is better than one halfway
+        try:
+            case.column.struck_at(impact_height)
+        except InputError as error:
+            if inputs.impact_height == "auto":
+                raise InputError(
+                    f"impact_height may not be auto here: by the rule, {error}"
+                ) from None
+            raise
     return case
 
 

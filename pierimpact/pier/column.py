@@ -62,7 +62,7 @@ class Step:
 class PierColumn:
     """A column between two ends; deflects in flexure and shear (Timoshenko beam).
 
-    Heights z run from the base upward.
+    Heights z run upward from the ground, where the base is unless the column is embedded.
 
     Parameters
     ----------
@@ -266,7 +266,8 @@ class PierColumn:
         struck = self.struck_at(impact_height)
         pier = struck.equivalent(damping_ratio)
         if not struck.static_forces.hold:
-            warnings.warn(struck.static_forces.sentence, StaticForcesWarning, stacklevel=2)
+            words = f"{struck.static_forces.sentence} PierColumn.beam gives it."
+            warnings.warn(words, StaticForcesWarning, stacklevel=2)
         return pier
 
     def beam(

@@ -190,11 +190,6 @@ class Section:
         raise NotImplementedError
 
     @property
-    def mass_area(self) -> float:
-        """Area A_m with which the density of the column gives the mass per length [m²]."""
-        return self.values.get("Am", self.values["A"])
-
-    @property
     def mass_second_moment(self) -> float:
         """Second moment of area with which it gives the rotary inertia per length [m⁴]."""
         return self.values["I"]

@@ -78,5 +78,5 @@ def too_low(reason: str, ratios: Ratios) -> str:
         f"Shear and moment under the reaction as a static force may be too low: {reason}; in "
         f"nine of ten such cases studied, the static shear was {least:.2f} to {most:.2f} times "
         f"and the static moment {low:.2f} to {high:.2f} times that of the column as a beam, from "
-        "which both should be taken (PierColumn.beam)."
+        "which both should be taken."
     )

@@ -124,7 +124,7 @@ def draw_member_forces(
         force = printed(forces.reaction, "force", system)
         column.text(-0.85, impact, f"{force}\n", va="center", fontsize=8.5)
         column.spines["bottom"].set_visible(False)
-        height = f"Height above the base [{unit_of('length', system)}]"
+        height = f"Height above the ground [{unit_of('length', system)}]"
         column.set(ylabel=height, xlim=(-1.0, 0.5), ylim=(z[0], z[-1]), xticks=[])
         for axes, (name, quantity), resistance in zip(
             diagrams, (("Shear", "force"), ("Moment", "moment")), resistances, strict=True

@@ -44,25 +44,30 @@ class ArrangedColumnSteps(EquivalentPierSteps):
         return f"{bottom.number} to {top}"
 
     def parts(self) -> Block:
-        """Return the rigidities and the mass per length of each part."""
-        quantities = ("flexural rigidity", "shear rigidity", "mass per length")
-        names = ("EI", "GA", "mbar")
+        """Return section properties, rigidities and mass per length of each part."""
+        column, names = self.case.column, ("A", "I", "kappa", "EI", "GA", "mbar")
+
+        def values(part: Part) -> dict[str, float]:
+            below = [step.section for step in column.steps if step.height <= part.bottom]
+            return column.section_values([column.section, *below][-1])
+
         return Table(
             label="tab-parts",
             caption="Parts of the column, from the base upward, with a joint at the impact.",
             columns=columns(
                 "Part",
                 *(
-                    decimal((Tex(SYMBOLS[name].latex), f" [{self.unit(quantity)}]"))
-                    for name, quantity in zip(names, quantities, strict=True)
+                    decimal((Tex(SYMBOLS[name].latex), f" [{unit}]" if unit else ""))
+                    for name in names
+                    for unit in [self.unit(SYMBOLS[name].quantity)]
                 ),
             ),
             rows=[
                 [
                     self._stretch(piece.part),
                     *(
-                        self.number(value, quantity)
-                        for value, quantity in zip(piece.part[2:5], quantities, strict=True)
+                        self.number(values(piece.part)[name], SYMBOLS[name].quantity)
+                        for name in names
                     ),
                 ]
                 for piece in self._pieces
@@ -71,7 +76,7 @@ class ArrangedColumnSteps(EquivalentPierSteps):
 
     def unit_forces(self) -> Block:
         """Return support forces and moments under a unit force at the impact height."""
-        depth = r" + H_\mathrm{e}" if self.case.column.embedment else ""
+        arm = r"(z_\mathrm{n} + H_\mathrm{e})" if self.case.column.embedment else r"z_\mathrm{n}"
         return Table(
             label="tab-unit-force",
             caption=(
@@ -81,7 +86,7 @@ class ArrangedColumnSteps(EquivalentPierSteps):
                 Tex(r"R_\mathrm{b} + R_\mathrm{t} = 1"),
                 " and ",
                 Tex(
-                    r"M_\mathrm{b} + R_\mathrm{b} \, (z_\mathrm{n}" + depth + r") = "
+                    r"M_\mathrm{b} + R_\mathrm{b} \, " + arm + r" = "
                     r"M_\mathrm{t} + R_\mathrm{t} \, (H - z_\mathrm{n}) = M_\mathrm{n}"
                 ),
                 ".",
@@ -109,11 +114,11 @@ class ArrangedColumnSteps(EquivalentPierSteps):
         ]
         column, found = self.case.column, self.calculation.struck.unit_force
         for name, support, force, moment in (
-            ("Base", column.supports[0], found.base_force, found.base_moment),
-            ("Top", column.supports[1], found.top_force, found.top_moment),
+            ("base", column.supports[0], found.base_force, found.base_moment),
+            ("top", column.supports[1], found.top_force, found.top_moment),
         ):
             if work := support.work(force, moment):
-                rows.append([f"Springs, {name.lower()}", "", "", self.number(work, "flexibility")])
+                rows.append([f"Springs, {name}", "", "", self.number(work, "flexibility")])
         rows.append(["Sum", "", "", self.number(found.deflection, "flexibility")])
         unit = self.unit("flexibility")
         return Table(
@@ -133,7 +138,7 @@ class ArrangedColumnSteps(EquivalentPierSteps):
                 "Part",
                 decimal(f"Flexure [{unit}]"),
                 decimal(f"Shear [{unit}]"),
-                decimal(f"Together [{unit}]"),
+                decimal(f"Total [{unit}]"),
             ),
             rows=rows,
             strong=[len(rows) - 1],

@@ -7,6 +7,7 @@ import numpy as np
 
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
 from pierimpact.files.case import concrete_modulus
+from pierimpact.pier.arrangement import SUPPORTS
 from pierimpact.pier.equivalent import equivalent_mass, vibration
 from pierimpact.pier.sections import FreeSection
 from pierimpact.pier.unit_force import BY_ENDS
@@ -84,13 +85,17 @@ class EquivalentPierSteps(Section):
     def elevation(self) -> Block:
         """Return the column in elevation, drawn to scale."""
         column = self.case.column
+        base, top = (
+            next((name for name, own in SUPPORTS.items() if own == support), "on springs")
+            for support in column.supports
+        )
         height = self.shown(column.height, "length", given=True)
         impact = self.shown(self.calculation.struck.impact_height, "length", given=True)
         return Figure(
             label="fig-elevation",
             caption="The column in elevation, to scale, and where it is struck.",
-            alt=f"The column, {height} high, base {column.base}, top {column.top}; the truck "
-            f"comes from the left and strikes at {impact}.",
+            alt=f"The column, {height} high, base {base}, top {top}; the truck comes from the left "
+            f"and strikes at {impact}.",
             svg=draw_elevation(self.calculation.struck, self.system),
         )
 
@@ -103,6 +108,7 @@ class EquivalentPierSteps(Section):
         section, shape = self.case.column.section, self.case.inputs.column_shape
         if isinstance(section, FreeSection):
             return Paragraph("The case gives the properties of the section, and not its shape.")
+        place = " at its base" if self.case.column.steps else ""
         sizes = [
             f"{SYMBOLS[symbol].meaning} {self.shown(value, 'section length', given=True)}"
             for symbol, value in section.values.items()
@@ -111,7 +117,7 @@ class EquivalentPierSteps(Section):
         ]
         return Figure(
             label="fig-section",
-            caption=f"Section of the column, {shape}, to scale.",
+            caption=f"Section of the column{place}, {shape}, to scale.",
             alt=f"The section, {shape}: {', '.join(sizes)}. The truck comes from the left.",
             svg=draw_section(section, self.system),
         )

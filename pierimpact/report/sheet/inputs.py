@@ -1,8 +1,9 @@
 """The tables of inputs, with source and status of each value."""
 
 import re
+from typing import Any
 
-from pierimpact.files.inputs import PHYSICAL_KEYS
+from pierimpact.files.inputs import PHYSICAL_KEYS, SectionInputs
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Tex
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
@@ -19,8 +20,28 @@ class Inputs(Section):
             "tab-inputs",
             "Inputs of the case.",
             "Input",
-            [self._input_row(key) for key in BY_KEY if key in self._keys()],
+            [self._input_row(key) for key in BY_KEY if key in self._keys()] + self._step_rows(),
         )
+
+    def _step_rows(self) -> list[list[Inline]]:
+        """Return the dimensions of each section above the first, with the height it begins at."""
+        inputs, rows = self.case.inputs, []
+        given: Any = self.case.given.get("steps", ())
+        for step, typed in zip(inputs.steps, given, strict=True):
+            height = self.shown(step.height, "length", given=True)
+            for key in _keys_of(step):
+                symbol, value = BY_KEY[key], getattr(step, key)
+                symbol = symbol._replace(meaning=f"{symbol.meaning}, from {height} upward")
+                source = "case file" + self._as_given(symbol, value, typed[key])
+                rows.append(self._row(symbol, value, "given", source))
+        return rows
+
+    def _as_given(self, symbol: Symbol, value: float | str, typed: object) -> str:
+        """Return how a value was given, if the sheet prints it in another unit."""
+        if isinstance(value, str) or not isinstance(typed, str):
+            return ""
+        unit = self.shown(value, symbol.quantity, given=True).unit
+        return "" if _plain(typed).endswith(_plain(unit)) else f"; given as {typed}"
 
     def _keys(self) -> list[str]:
         """Return the keys of the case that have a value."""
@@ -40,11 +61,7 @@ class Inputs(Section):
             status = "given"
         if value == "auto":
             value = "by the rule"
-        if not isinstance(value, str):
-            unit = self.shown(value, symbol.quantity, given=True).unit
-            typed = case.given.get(key)
-            if isinstance(typed, str) and not _plain(typed).endswith(_plain(unit)):
-                source += f"; given as {typed}"
+        source += self._as_given(symbol, value, case.given.get(key))
         return self._row(symbol, value, status, source)
 
     def truck_table(self) -> Block:
@@ -71,8 +88,17 @@ class Inputs(Section):
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of truck and case, by name."""
         truck = [parameter.name for parameter in self.case.truck_file.parameters]
-        tables = dict.fromkeys(truck, "tab-truck") | dict.fromkeys(self._keys(), "tab-inputs")
+        own = [
+            *self._keys(),
+            *(key for step in self.case.inputs.steps for key in _keys_of(step)),
+        ]
+        tables = dict.fromkeys(truck, "tab-truck") | dict.fromkeys(own, "tab-inputs")
         return {NAMES[key]: table for key, table in tables.items()}
+
+
+def _keys_of(section: SectionInputs) -> list[str]:
+    """Return the keys of a cross-section that have a value."""
+    return [key for key in SectionInputs.model_fields if getattr(section, key) is not None]
 
 
 def _table(label: str, caption: str, heading: str, rows: list[list[Inline]]) -> Block:

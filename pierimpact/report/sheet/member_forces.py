@@ -17,7 +17,8 @@ class MemberForces(Section):
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the member forces, by name."""
-        return {"V_max": "tab-members", "M_max": "tab-members"}
+        yields = {"Ry": "tab-yielding"} if self.yielding() else {}
+        return {"V_max": "tab-members", "M_max": "tab-members"} | yields
 
     def table(self) -> Block:
         """Return shear and moment at base, impact and top, and the largest, by both methods."""
@@ -42,8 +43,12 @@ class MemberForces(Section):
                 )
                 # Of a free or pinned end nothing but round-off is left.
                 least = 1e-9 * (result.demands["shear" if quantity == "force" else "moment"].value)
+                # Beyond an end that is struck there is no beam whose shear could be given.
+                struck = corner != 1 and static.z[corner] == static.impact_height
                 rows[-1] += [
-                    self.number(value if abs(value) > least else 0.0, quantity)
+                    ""
+                    if struck and quantity == "force"
+                    else self.number(value if abs(value) > least else 0.0, quantity)
                     for value in (float(envelope[place]) for envelope in ends)
                 ]
             rows[-1].append(self.unit(quantity))
@@ -75,8 +80,9 @@ class MemberForces(Section):
         sentences = []
         for name, extremes in (("shear", beam.shear_extremes), ("moment", beam.moment_extremes)):
             extreme, ratio = extremes.governing, demands[name].ratio
-            height = self.shown(extreme.z, "length", given=True)
-            place = "at the base" if extreme.z == beam.z[0] else f"{height} above the ground"
+            height = self.shown(abs(extreme.z), "length", given=True)
+            place = f"{height} {'above' if extreme.z >= 0.0 else 'below'} the ground"
+            place = "at the base" if extreme.z == beam.z[0] else place
             time = self.shown(extreme.time, "time")
             sentences.append(
                 f"The largest {name} of the beam is {place}, {time} after first touch; the static "
@@ -141,7 +147,7 @@ class MemberForces(Section):
             ("Largest displacement at the impact", r"x_\mathrm{p}",
              self.shown(largest, "section length")),
             ("Ductility demand", ductility, (rounded(history.ductility, 3), "")),
-            ("Displacement that stays", "",
+            ("Residual displacement at the impact", "",
              self.shown(history.residual_displacement, "section length")),
             (taken, "", self.shown(energy, "energy")),
         ]  # fmt: skip
@@ -150,7 +156,7 @@ class MemberForces(Section):
             caption="If the column yields in bending: the full model with a pier that is elastic "
             "up to the reaction at which its moment resistance is first reached, and perfectly "
             "plastic from there. A redundant column carries more until its hinges make it a "
-            "mechanism. How much ductility the section has, the case does not say; shear is not "
+            "mechanism. The case does not say how much ductility the section has; shear is not "
             "ductile, and its utilisation stays as it is.",
             columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
             rows=[[name, Tex(symbol) if symbol else "", *shown] for name, symbol, shown in rows],

@@ -65,11 +65,18 @@ class Variations(Section):
             return None
         low, _, high = (self.shown(value, "force") for value in band.quantiles())
         name = BY_KEY[next(iter(band.influence))].meaning
+        sources = dict.fromkeys(
+            (own.spread_source or "none given") + (f" ({status.words})" if status else "")
+            for own in self.case.truck_file.parameters
+            for status in [own.spread_status]
+            if own.name in band.spread
+        )
         return Figure(
             label="fig-band",
             caption="Reactions by the full model as the truck’s parameters vary within their "
             "spread: 5 to 95 % of 1000 sampled trucks, and the governing reaction with one "
-            "parameter at a time at either end; with its share of the variance.",
+            "parameter at a time at either end; with its share of the variance. Source of the "
+            f"spreads: {'; '.join(sources)}.",
             alt=f"Nine of ten governing reactions are from {low} to {high}. The {name} moves it "
             "most.",
             svg=draw_band(band, self.system),

@@ -1,5 +1,6 @@
 """The first page: head, results, warnings and contents."""
 
+import math
 from collections.abc import Iterator, Sequence
 
 from pierimpact.design.codes import aashto_lrfd
@@ -65,7 +66,7 @@ class Summary(Section):
             (
                 "Design reaction",
                 self.shown(result.design_force, "force"),
-                f"static, at {height} above the base; by the {result.governing_method}",
+                f"static, at {height} above the ground; by the {result.governing_method}",
             ),
             ("Design procedure", self.shown(design.reaction, "force"), parts),
             (
@@ -92,7 +93,7 @@ class Summary(Section):
             low, middle, high = band.quantiles()
             ends = f"{self.number(low, 'force')}–{self.number(high, 'force')}"
             middle_words = (
-                f"5 to 95 % of trucks of this spread; middle {self.number(middle, 'force')}"
+                f"5 to 95 % of trucks of this spread; median {self.number(middle, 'force')}"
             )
             results.append(("Band", Printed(ends, self.unit("force")), middle_words))
             name, share = next(iter(band.influence.items()))
@@ -179,8 +180,11 @@ def limitations(calculation: Calculation) -> Iterator[str]:
         if demand.ratio is not None and demand.ratio < UNSAFE:
             yield (
                 f"The column as a beam takes {rounded(1.0 / demand.ratio, 3)} times the {name} "
-                "that the static reaction gives: one degree of freedom does not hold here."
+                "that the static reaction gives: one degree of freedom does not represent this "
+                "column."
             )
+    if case.column.top_mass and math.isinf(case.column.supports[1].stiffness):
+        yield "The mass at the top has no effect: the top of this column does not move sideways."
     for key, *values in unusual(case.inputs):
         _, quantity, meaning, _ = BY_KEY[key]
         value, unit = printed(values[0], quantity, case.inputs.units, given=True)
