@@ -74,7 +74,7 @@ CLAUSES = {
 NOTED = {
     "AASHTO LRFD": ("(TxDOT’s manual, read)", "below 0.001;", "30 ft", "15° of the travel: unver"),
     "JTG D60": ("edition of 2015", "no less than 1/6 (second-hand)"),
-    "JCSS, hard impact": ("0.25 × 1.50 m", "300 ± 60 kN/m", "m v / F"),
+    "JCSS, hard impact": ("variation of 20 %", "m v / F"),  # 300 ± 60 kN/m
 }
 
 

@@ -170,6 +170,8 @@ def en_1991_1_7_hard_impact(speed: float, mass: float, stiffness: float | None =
 def jcss_hard_impact(speed: float, mass: float) -> CodeForce:
     """JCSS Probabilistic Model Code, Part 2, 2.18: hard impact of a lorry, F = v √(k m).
 
+    It acts on an area of 0.25 × 1.50 m; k is lognormal, 300 ± 60 kN/m.
+
     Parameters
     ----------
     speed : float
@@ -190,9 +192,9 @@ def jcss_hard_impact(speed: float, mass: float) -> CodeForce:
         along=Sourced(force, Certainty.READ),
         height=Sourced(1.25, Certainty.READ),
         stiffness=stiffness,
-        note="Probabilistic Model Code: F = v √(k m), on 0.25 × 1.50 m; by its own account on the "
-        "safe side. F is at most the lower of the yield forces of vehicle and structure, and then "
-        "lasts m v / F. k is lognormal, 300 ± 60 kN/m; here its mean.",
+        note="Probabilistic Model Code: F = v √(k m); by its own account on the safe side. F is "
+        "at most the lower of the yield forces of vehicle and structure, and then lasts m v / F. "
+        "k is lognormal with a coefficient of variation of 20 %; here its mean.",
     )
 
 
