@@ -13,7 +13,7 @@ from pierimpact.certainty import Certainty
 from pierimpact.checks import broadcast, one_of, positive_array
 
 KIP = 4448.2216152605  # pound-force of exactly 0.45359237 kg × 9.80665 m/s², times 1000 [N]
-JCSS_STIFFNESS = 300e3  # of a vehicle, the mean; its standard deviation is 60 kN/m [N/m]
+JCSS_STIFFNESS = 300e3  # of a vehicle, the mean, as read in the JCSS model code [N/m]
 
 
 class Sourced(NamedTuple):

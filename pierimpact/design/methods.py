@@ -38,7 +38,7 @@ from pierimpact.vehicle.truck import Truck
 
 Array: TypeAlias = NDArray[np.float64]
 
-WINDOW = 0.025  # over which the contact force is averaged [s]
+WINDOW = 0.025  # over which the contact force is averaged, as read in NCHRP Report 892 [s]
 _JCSS = "JCSS Probabilistic Model Code, Part 2, 2.18"
 
 
