@@ -47,6 +47,14 @@ class FreeVibration(NamedTuple):
         xp = self.static + decay * (self.y * cos + self.q * sin)
         return xp, decay * (self.v * cos - self.s * sin)
 
+    def reach(self, ops: Ops) -> Real:
+        """Return a bound, whatever the phase, of the distance from the static displacement."""
+        return ops.lib.hypot(self.y, self.q)
+
+    def fastest(self, ops: Ops) -> Real:
+        """Return a bound, whatever the phase, of the speed."""
+        return ops.lib.hypot(self.v, self.s)
+
     def first_maximum(self, ops: Ops) -> Real:
         """Return the time of the first maximum; no later one is higher."""
         return (0.5 * math.pi - ops.lib.atan2(self.s, self.v)) % (2.0 * math.pi) / self.omega
@@ -60,7 +68,7 @@ def free_vibration(motion: LinearMotion, position: Position, ops: Ops) -> FreeVi
     """Return the pier's vibration under the constant forces of `motion`."""
     b, sigma = motion.b, 0.5 * motion.c
     omega = ops.lib.sqrt(b - sigma * sigma)
-    force = motion.intercept1 + motion.gamma * motion.intercept2 + motion.on_pier * motion.friction
+    force = motion.intercept1 + motion.gamma * motion.intercept2 + motion.pier_force
     static = motion.inverse_mp * force / b
     y, v = position.xp - static, position.vp
     q, s = (v + sigma * y) / omega, (b * y + sigma * v) / omega
@@ -98,9 +106,8 @@ def time_without_change(
     where, lib = ops.where, ops.lib
     d1, u1, d2, u2, xp, vp = state.position
     a1, a2 = _constant_accelerations(motion)
-    # Bounds, whatever the phase, of the pier's distance from its static displacement and its speed.
-    reach, fastest = lib.hypot(vibration.y, vibration.q), lib.hypot(vibration.v, vibration.s)
-    bound = NO_BOUND
+    reach, fastest = vibration.reach(ops), vibration.fastest(ops)
+    bounds = []
     for line, d, u, a in ((state.engine, d1, u1, a1), (state.body, d2, u2, a2)):
         v = u + vp
         gap = line.upper + vibration.static - reach - d - xp
@@ -113,8 +120,11 @@ def time_without_change(
         slows = a < 0.0
         turn = where(slows, (fastest - v) / where(slows, a, 1.0), where(v > fastest, NO_BOUND, 0.0))
         turn = where(line.regime >= PLATEAU, turn, NO_BOUND)
-        bound = where(arrival < bound, arrival, bound)
-        bound = where(turn < bound, turn, bound)
+        bounds.append(where(arrival < turn, arrival, turn))
+    bound, of_body = bounds
+    if state.yielding is not None:
+        of_body = where(state.stuck & parameters.on_pier, NO_BOUND, of_body)
+    bound = where(of_body < bound, of_body, bound)
     # Friction on the road may bring the body to rest.
     stops = (motion.friction != 0.0) & ops.negate(parameters.on_pier) & (v * a < 0.0)
     stop = where(stops, -v / where(stops, a, 1.0), NO_BOUND)
@@ -126,26 +136,29 @@ def coast(
 ) -> tuple[State, Real]:
     """Return the state at the end of coasting, and its length: zero where there is none."""
     where, some = ops.where, ops.some
-    constant: Flag = (
-        (motion.slope1 == 0.0)
-        & (motion.slope2 == 0.0)
-        & ops.negate(state.stuck & parameters.on_pier)
-    )
+    yielding, together = state.yielding, state.stuck & parameters.on_pier
+    constant: Flag = (motion.slope1 == 0.0) & (motion.slope2 == 0.0) & ops.negate(together)
+    if yielding is not None:
+        constant = (constant | (motion.slope1 == 0.0) & together) & (yielding.direction == 0.0)
     if not some(constant):
         return state, 0.0
-    yielding = state.yielding
-    if yielding is not None:
-        b = motion.inverse_mp * parameters.pier_stiffness
-        motion = motion._replace(b=b, yield_force=0.0)
+    if yielding is not None:  # those that yield are left out in the end, but have no frequency
+        motion = motion._replace(b=motion.inverse_mp * parameters.pier_stiffness)
     vibration = free_vibration(motion, state.position, ops)
     bound = time_without_change(parameters, state, motion, vibration, ops)
     # Where nothing ever changes, one period brings the highest peak; numerical: 1 % to spare.
     h = where(bound < NO_BOUND, SAFETY * bound, 1.01 * 2.0 * math.pi / vibration.omega)
     worthwhile = constant & (h * vibration.omega > PHASE)
     if yielding is not None:
-        farthest = abs(vibration.static) + ops.lib.hypot(vibration.y, vibration.q)
-        elastic = (yielding.direction == 0.0) & (farthest <= yielding.limit * (1.0 + ROUND_OFF))
-        worthwhile = worthwhile & elastic
+        farthest = abs(vibration.static) + vibration.reach(ops)
+        # What holds the body to the pier is F2 + m2 x_p''.
+        held = abs(motion.forces(state.position)[1])
+        held = held + parameters.body.mass * ops.lib.sqrt(motion.b) * vibration.fastest(ops)
+        worthwhile = (
+            worthwhile
+            & (farthest <= yielding.limit * (1.0 + ROUND_OFF))
+            & (ops.negate(together) | (held <= parameters.friction_force))
+        )
     if not some(worthwhile):
         return state, 0.0
     h = where(worthwhile, h, 0.0)

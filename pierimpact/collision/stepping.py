@@ -113,9 +113,8 @@ def longest_step(motion: LinearMotion, ops: Ops) -> Real:
     """Return the step in which no mode of the regime turns by more than PHASE."""
     slope1, slope2, c = motion.slope1, motion.slope2, motion.c
     g1, g2 = motion.inverse_m1 * slope1, motion.inverse_m2 * slope2
-    square = motion.b + motion.inverse_mp * (slope1 + slope2) + ops.where(g1 > g2, g1, g2) + c * c
-    square = square + motion.pace
-    return PHASE / ops.lib.sqrt(square)
+    square = motion.pace + motion.inverse_mp * (slope1 + slope2)
+    return PHASE / ops.lib.sqrt(square + ops.where(g1 > g2, g1, g2) + c * c)
 
 
 def event_functions(
@@ -304,6 +303,10 @@ def prospects(
         (body, state.body, d2, state.cargo_contact),
     ):
         force = line.intercept + line.slope * d
+        if state.yielding is not None and spring is body:
+            # What friction on the pier takes while the spring unloads never reaches it.
+            rest = force - parameters.friction_force
+            force = where(on_pier, where(rest > 0.0, rest, 0.0), force)
         energy = energy + 0.5 * force**2 / spring.unloading_stiffness
         crushed = where(d > line.largest, d, line.largest)
         needed = spring.plateau_force * (spring.plateau_length - crushed)
