@@ -2,8 +2,9 @@
 
 On a plateau or out of contact the forces do not depend on the motion, so that engine and body move
 on parabolas and the pier vibrates freely. A stiff pier then goes through many cycles before
-anything changes; one step covers them all and ends safely before the first possible change. A pier
-that yields, or may yield on its next swing, does not coast.
+anything changes; one step covers them all and ends safely before the first possible change. So
+does one step where a body that sticks to the road pushes a yielding pier ever more slowly. A pier
+that yields otherwise, or may yield on its next swing, does not coast.
 """
 
 import math
@@ -11,6 +12,7 @@ from typing import NamedTuple
 
 from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import (
+    FREE,
     NO_BOUND,
     PLATEAU,
     LinearMotion,
@@ -19,7 +21,7 @@ from pierimpact.collision.regimes import (
     raise_peak,
 )
 from pierimpact.collision.series import PHASE, Flag, Ops, Real
-from pierimpact.collision.yielding import ROUND_OFF
+from pierimpact.collision.yielding import HARDLY, ROUND_OFF, Yielding
 
 # Numerical: share of the time to the earliest change, which round-off must not pass.
 SAFETY = 0.999
@@ -75,8 +77,44 @@ def free_vibration(motion: LinearMotion, position: Position, ops: Ops) -> FreeVi
     return FreeVibration(static, sigma, omega, y, q, v, s)
 
 
+class Creep(NamedTuple):
+    """The yielding pier's overdamped motion to rest, against nothing but its damper.
+
+    x_p = rest + A exp(−α t) + B exp(−β t)
+    """
+
+    rest: Real
+    fast: Real  # A
+    alpha: Real
+    slow: Real  # B
+    beta: Real
+
+    def after(self, t: Real, ops: Ops) -> tuple[Real, Real]:
+        """Return displacement and velocity after a time `t`."""
+        exp = ops.lib.exp
+        fast, slow = self.fast * exp(-self.alpha * t), self.slow * exp(-self.beta * t)
+        return self.rest + fast + slow, -self.alpha * fast - self.beta * slow
+
+
+def creep(motion: LinearMotion, position: Position, ops: Ops) -> Creep:
+    """Return the creep of a pier that yields under the spring of a body at rest.
+
+    Where the motion is not overdamped β is zero, and where it turns back B is positive.
+    """
+    where, sigma = ops.where, 0.5 * motion.c
+    square = motion.inverse_mp * motion.slope2
+    # Closer to critical damping the two rates are too near each other, and steps are few.
+    overdamped = (square > 0.0) & (sigma * sigma > 1.5 * square)
+    square = where(overdamped, square, 0.0)
+    alpha = sigma + ops.lib.sqrt(where(overdamped, sigma * sigma - square, 1.0))
+    beta = square / alpha
+    left = (motion.forces(position)[1] + motion.pier_force) / where(overdamped, motion.slope2, 1.0)
+    slow = (position.vp - alpha * left) / (alpha - beta)
+    return Creep(position.xp + left, -left - slow, alpha, slow, beta)
+
+
 def coasting_position(
-    motion: LinearMotion, position: Position, vibration: FreeVibration, t: Real, ops: Ops
+    motion: LinearMotion, position: Position, vibration: FreeVibration | Creep, t: Real, ops: Ops
 ) -> Position:
     """Return the position after coasting for a time `t`."""
     d1, u1, d2, u2, x0, v0 = position
@@ -131,17 +169,45 @@ def time_without_change(
     return where(stop < bound, stop, bound)
 
 
+def creep_to_rest(
+    state: State, yielding: Yielding, motion: LinearMotion, ops: Ops
+) -> tuple[State, Real]:
+    """Return the state once a creeping pier has all but come to rest, and the time it takes.
+
+    On its way nothing can happen: the spring of the body at rest unloads to R_y, and the engine has
+    left.
+    """
+    where, position = ops.where, state.position
+    engine_left = (state.engine.regime == FREE) & (position.u1 + position.vp <= 0.0)
+    on_road = state.stuck & ops.negate(motion.on_pier)
+    creeps = on_road & engine_left & (yielding.direction > 0.0)
+    if not ops.some(creeps):
+        return state, 0.0
+    creeping = creep(motion, position, ops)
+    creeps = creeps & (creeping.beta > 0.0) & (creeping.slow < 0.0)
+    ratio = -creeping.slow / where(creeps, 0.5 * HARDLY * yielding.largest, 1.0)
+    creeps = creeps & (ratio > 1.0)
+    if not ops.some(creeps):
+        return state, 0.0
+    h = ops.lib.log(where(creeps, ratio, 1.0)) / where(creeps, creeping.beta, 1.0)
+    end = coasting_position(motion, position, creeping, h, ops)
+    end = Position(*map(where, [creeps] * len(end), end, position))
+    state = state._replace(time=state.time + h, position=end)
+    return raise_peak(state, end.xp, state.time, creeps, ops), h
+
+
 def coast(
     parameters: Parameters, state: State, motion: LinearMotion, ops: Ops
 ) -> tuple[State, Real]:
     """Return the state at the end of coasting, and its length: zero where there is none."""
     where, some = ops.where, ops.some
-    yielding, together = state.yielding, state.stuck & parameters.on_pier
+    yielding, together, crept = state.yielding, state.stuck & parameters.on_pier, 0.0
     constant: Flag = (motion.slope1 == 0.0) & (motion.slope2 == 0.0) & ops.negate(together)
     if yielding is not None:
         constant = (constant | (motion.slope1 == 0.0) & together) & (yielding.direction == 0.0)
+        state, crept = creep_to_rest(state, yielding, motion, ops)
     if not some(constant):
-        return state, 0.0
+        return state, crept
     if yielding is not None:  # those that yield are left out in the end, but have no frequency
         motion = motion._replace(b=motion.inverse_mp * parameters.pier_stiffness)
     vibration = free_vibration(motion, state.position, ops)
@@ -160,7 +226,7 @@ def coast(
             & (ops.negate(together) | (held <= parameters.friction_force))
         )
     if not some(worthwhile):
-        return state, 0.0
+        return state, crept
     h = where(worthwhile, h, 0.0)
     extremes = [vibration.first_maximum(ops)]
     if yielding is not None:
@@ -171,4 +237,4 @@ def coast(
     end = coasting_position(motion, state.position, vibration, h, ops)
     end = Position(*map(where, [worthwhile] * len(end), end, state.position))
     state = state._replace(time=state.time + h, position=end)
-    return raise_peak(state, end.xp, state.time, worthwhile, ops), h
+    return raise_peak(state, end.xp, state.time, worthwhile, ops), h + crept

@@ -9,7 +9,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.collision.coasting import coasting_position, free_vibration
+from pierimpact.collision.coasting import coasting_position, creep, free_vibration
 from pierimpact.collision.parameters import Collision
 from pierimpact.collision.regimes import LinearMotion, Position, State
 from pierimpact.collision.series import ARRAYS, FLOATS, TERMS, weights_of_all
@@ -352,10 +352,12 @@ class CollisionHistory:
         for state, motion, length in self.steps:
             count = max(1, math.ceil(length / longest_step(motion, FLOATS) - 1e-9))
             pieces.append((state, motion, length / count))
+            if count > 1:
+                yields = state.yielding is not None and state.yielding.direction != 0.0
+                coasting = (creep if yields else free_vibration)(motion, state.position, FLOATS)
             for number in range(1, count):
                 t = number * length / count
-                vibration = free_vibration(motion, state.position, FLOATS)
-                position = coasting_position(motion, state.position, vibration, t, FLOATS)
+                position = coasting_position(motion, state.position, coasting, t, FLOATS)
                 later = state._replace(time=state.time + t, position=position)
                 pieces.append((later, motion, length / count))
         return pieces

@@ -49,6 +49,7 @@ from pierimpact.collision.series import (
     terms_needed,
 )
 from pierimpact.collision.yielding import (
+    HARDLY,
     ROUND_OFF,
     YIELDING_ENDS,
     YIELDS_BACKWARD,
@@ -62,7 +63,6 @@ PIER_EXTREME = 8  # of its displacement: an event, but not a change of regime
 # Numerical settings.
 TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative to its scale
 HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
-HARDLY = 1e-11  # relative to the largest displacement of the pier
 STEPS = 100_000  # limit; no collision of the studied domain takes a hundredth of it
 
 Rates: TypeAlias = tuple[Real, Real, Real]  # value, first and second rate
