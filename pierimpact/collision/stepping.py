@@ -304,9 +304,7 @@ def prospects(
     ):
         force = line.intercept + line.slope * d
         if state.yielding is not None and spring is body:
-            # What friction on the pier takes while the spring unloads never reaches it.
-            rest = force - parameters.friction_force
-            force = where(on_pier, where(rest > 0.0, rest, 0.0), force)
+            energy = energy - kept_by_spring(parameters, state, force, state.yielding, ops)
         energy = energy + 0.5 * force**2 / spring.unloading_stiffness
         crushed = where(d > line.largest, d, line.largest)
         needed = spring.plateau_force * (spring.plateau_length - crushed)
@@ -322,6 +320,23 @@ def prospects(
     engine_left = (state.engine.regime == FREE) & (v1 <= 0.0)
     body_left = ((state.body.regime == FREE) & (v2 <= 0.0)) | state.stuck
     return no_contact & no_peak, engine_left & body_left
+
+
+def kept_by_spring(
+    parameters: Parameters, state: State, force: Real, yielding: Yielding, ops: Ops
+) -> Real:
+    """Return what the body's spring, with a force F2, keeps of its energy before the pier yields.
+
+    On the pier, what friction takes while it unloads; against a body at rest on the road, what is
+    left in it when the pier gets as far as R_y, and no more than the friction can hold.
+    """
+    where, friction = ops.where, parameters.friction_force
+    stiffness = parameters.body.unloading_stiffness
+    left = force - stiffness * (yielding.limit - state.position.xp)
+    left = where(state.stuck & (left > 0.0), where(left < friction, left, friction), 0.0)
+    rest = where(force > friction, force - friction, 0.0)
+    square = where(parameters.on_pier, force * force - rest * rest, left * left)
+    return 0.5 * square / stiffness
 
 
 def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
