@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from reference import solve
 
 from pierimpact import EquivalentPier, InputError, load_truck, peak_reactions, simulate
+from pierimpact.collision import stepping
 
 TRUCK = load_truck("single-unit-8t")
 
@@ -269,6 +270,61 @@ def test_a_yield_reaction_is_an_axis():
     np.testing.assert_array_equal(peaks.ductility[2], 0.0)
     assert (peaks.governing <= resistance).all()
     assert (np.diff(peaks.plastic_energy, axis=0) < 0.0).all()
+
+
+def held_by_friction(size, seed):
+    """Generated collisions with friction that can hold the truck against a pier that yields."""
+    random, cases = np.random.default_rng(seed), []
+    generated = collisions(size, seed)
+    elastic = peak_reactions(**side_by_side(generated)).governing
+    for (truck, pier, speed), peak in zip(generated, elastic, strict=True):
+        friction_on, friction = random.choice(["road", "pier"]), random.uniform(20e3, 400e3)
+        truck = dataclasses.replace(truck, friction_on=friction_on, friction_force=friction)
+        resistance = max(0.02 * peak, random.uniform(0.1, 0.9) * friction)
+        ratio = random.choice([0.01, 0.05, 0.2, 0.9])
+        pier = dataclasses.replace(pier, damping_ratio=ratio, yield_reaction=resistance)
+        cases.append(Case(truck, pier, speed))
+    return cases
+
+
+def test_the_steps_are_few(monkeypatch):
+    """Also where a body at rest pushes the pier ever more slowly, or an engine comes slowly."""
+    monkeypatch.setattr(stepping, "STEPS", 600)
+    assert (together(held_by_friction(200, seed=80))["ductility"] > 1.0).sum() > 150
+
+
+def test_a_creeping_pier_comes_to_rest_under_its_resistance():
+    creeping, random = 0, np.random.default_rng(76)
+    for truck, _, speed in collisions(12, seed=76):
+        friction, mass = random.uniform(300e3, 500e3), random.uniform(20e3, 100e3)
+        truck = dataclasses.replace(truck, friction_on="road", friction_force=friction)
+        resistance = random.uniform(0.1, 0.4) * friction
+        stiffness = mass * (2.0 * math.pi * random.uniform(20.0, 60.0)) ** 2
+        pier = EquivalentPier(
+            mass=mass,
+            stiffness=stiffness,
+            damping_ratio=random.uniform(0.3, 0.9),
+            yield_reaction=resistance,
+        )
+        case = Case(truck, pier, speed)
+        history = simulate(*case)
+        if history.end.yielding.direction == 0.0:
+            continue
+        creeping += 1
+        assert history.energy_error < 1e-11
+        # The impulses of pier and road add up over a long time.
+        impulses = 1.0 + resistance * history.time[-1] / (truck.mass * speed)
+        assert history.momentum_error < 1e-11 * impulses
+        largest = history.pier_displacement[-1]
+        round_off = 1e-10 * (truck.body_spring.unloading_stiffness * largest + resistance)
+        assert history.body_force[-1] == pytest.approx(resistance, rel=0.0, abs=round_off)
+        assert abs(history.body_velocity[-1]) < 1e-9 * speed
+        assert (np.diff(history.pier_displacement[-1000:]) >= -1e-15 * largest).all()
+        found = together([case])
+        assert found["residual_displacement"] == pytest.approx(
+            history.residual_displacement, rel=1e-9
+        )
+    assert creeping >= 3
 
 
 # The resistance of a column.

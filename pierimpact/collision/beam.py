@@ -92,11 +92,12 @@ class ModalMotion:
             intercept1=intercept1,
             intercept2=intercept2,
             friction=friction,
+            pier_force=motion.on_pier * friction,
         )
         a1, a2, ap = accelerations(rows, Position(d1, u1, d2, u2, resistance, 0.0))
         forces = np.stack((a1, a2, mass * ap + resistance))
 
-        self.step = longest_step(motion._replace(b=omega.max() ** 2, c=0.0), FLOATS)
+        self.step = longest_step(motion._replace(pace=omega.max() ** 2, c=0.0), FLOATS)
         # Term k of the Taylor series of a state y over one step is powers[k] y.
         self.powers = np.zeros((TERMS, size, size))
         self.powers[0] = np.eye(size)
@@ -166,7 +167,7 @@ class BeamPropagation:
         if motion.slope1 or motion.slope2 or not motion.gamma:
             return count
         omega, phi = self.beam.circular_frequencies, self.beam.impact_deflection
-        force = motion.intercept1 + motion.intercept2 + motion.on_pier * motion.friction
+        force = motion.intercept1 + motion.intercept2 + motion.pier_force
         rates = np.hypot(omega * self.q - phi * force / omega, self.p)
         vibrating = np.flatnonzero(0.5 * rates**2 > STILL * self.energy)
         least = max(FEWEST_MOVING, vibrating[-1] + 1 if len(vibrating) else 0)

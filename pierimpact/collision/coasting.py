@@ -2,8 +2,9 @@
 
 On a plateau or out of contact the forces do not depend on the motion, so that engine and body move
 on parabolas and the pier vibrates freely. A stiff pier then goes through many cycles before
-anything changes; one step covers them all and ends safely before the first possible change. A pier
-that yields, or may yield on its next swing, does not coast.
+anything changes; one step covers them all and ends safely before the first possible change. So
+does one step where a body that sticks to the road pushes a yielding pier ever more slowly. A pier
+that yields otherwise, or may yield on its next swing, does not coast.
 """
 
 import math
@@ -11,6 +12,7 @@ from typing import NamedTuple
 
 from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import (
+    FREE,
     NO_BOUND,
     PLATEAU,
     LinearMotion,
@@ -19,7 +21,7 @@ from pierimpact.collision.regimes import (
     raise_peak,
 )
 from pierimpact.collision.series import PHASE, Flag, Ops, Real
-from pierimpact.collision.yielding import ROUND_OFF
+from pierimpact.collision.yielding import HARDLY, ROUND_OFF, Yielding
 
 # Numerical: share of the time to the earliest change, which round-off must not pass.
 SAFETY = 0.999
@@ -47,6 +49,14 @@ class FreeVibration(NamedTuple):
         xp = self.static + decay * (self.y * cos + self.q * sin)
         return xp, decay * (self.v * cos - self.s * sin)
 
+    def reach(self, ops: Ops) -> Real:
+        """Return a bound, whatever the phase, of the distance from the static displacement."""
+        return ops.lib.hypot(self.y, self.q)
+
+    def fastest(self, ops: Ops) -> Real:
+        """Return a bound, whatever the phase, of the speed."""
+        return ops.lib.hypot(self.v, self.s)
+
     def first_maximum(self, ops: Ops) -> Real:
         """Return the time of the first maximum; no later one is higher."""
         return (0.5 * math.pi - ops.lib.atan2(self.s, self.v)) % (2.0 * math.pi) / self.omega
@@ -60,15 +70,51 @@ def free_vibration(motion: LinearMotion, position: Position, ops: Ops) -> FreeVi
     """Return the pier's vibration under the constant forces of `motion`."""
     b, sigma = motion.b, 0.5 * motion.c
     omega = ops.lib.sqrt(b - sigma * sigma)
-    force = motion.intercept1 + motion.gamma * motion.intercept2 + motion.on_pier * motion.friction
+    force = motion.intercept1 + motion.gamma * motion.intercept2 + motion.pier_force
     static = motion.inverse_mp * force / b
     y, v = position.xp - static, position.vp
     q, s = (v + sigma * y) / omega, (b * y + sigma * v) / omega
     return FreeVibration(static, sigma, omega, y, q, v, s)
 
 
+class Creep(NamedTuple):
+    """The yielding pier's overdamped motion to rest, against nothing but its damper.
+
+    x_p = rest + A exp(−α t) + B exp(−β t)
+    """
+
+    rest: Real
+    fast: Real  # A
+    alpha: Real
+    slow: Real  # B
+    beta: Real
+
+    def after(self, t: Real, ops: Ops) -> tuple[Real, Real]:
+        """Return displacement and velocity after a time `t`."""
+        exp = ops.lib.exp
+        fast, slow = self.fast * exp(-self.alpha * t), self.slow * exp(-self.beta * t)
+        return self.rest + fast + slow, -self.alpha * fast - self.beta * slow
+
+
+def creep(motion: LinearMotion, position: Position, ops: Ops) -> Creep:
+    """Return the creep of a pier that yields under the spring of a body at rest.
+
+    Where the motion is not overdamped β is zero, and where it turns back B is positive.
+    """
+    where, sigma = ops.where, 0.5 * motion.c
+    square = motion.inverse_mp * motion.slope2
+    # Closer to critical damping the two rates are too near each other, and steps are few.
+    overdamped = (square > 0.0) & (sigma * sigma > 1.5 * square)
+    square = where(overdamped, square, 0.0)
+    alpha = sigma + ops.lib.sqrt(where(overdamped, sigma * sigma - square, 1.0))
+    beta = square / alpha
+    left = (motion.forces(position)[1] + motion.pier_force) / where(overdamped, motion.slope2, 1.0)
+    slow = (position.vp - alpha * left) / (alpha - beta)
+    return Creep(position.xp + left, -left - slow, alpha, slow, beta)
+
+
 def coasting_position(
-    motion: LinearMotion, position: Position, vibration: FreeVibration, t: Real, ops: Ops
+    motion: LinearMotion, position: Position, vibration: FreeVibration | Creep, t: Real, ops: Ops
 ) -> Position:
     """Return the position after coasting for a time `t`."""
     d1, u1, d2, u2, x0, v0 = position
@@ -98,9 +144,8 @@ def time_without_change(
     where, lib = ops.where, ops.lib
     d1, u1, d2, u2, xp, vp = state.position
     a1, a2 = _constant_accelerations(motion)
-    # Bounds, whatever the phase, of the pier's distance from its static displacement and its speed.
-    reach, fastest = lib.hypot(vibration.y, vibration.q), lib.hypot(vibration.v, vibration.s)
-    bound = NO_BOUND
+    reach, fastest = vibration.reach(ops), vibration.fastest(ops)
+    bounds = []
     for line, d, u, a in ((state.engine, d1, u1, a1), (state.body, d2, u2, a2)):
         v = u + vp
         gap = line.upper + vibration.static - reach - d - xp
@@ -113,12 +158,42 @@ def time_without_change(
         slows = a < 0.0
         turn = where(slows, (fastest - v) / where(slows, a, 1.0), where(v > fastest, NO_BOUND, 0.0))
         turn = where(line.regime >= PLATEAU, turn, NO_BOUND)
-        bound = where(arrival < bound, arrival, bound)
-        bound = where(turn < bound, turn, bound)
+        bounds.append(where(arrival < turn, arrival, turn))
+    bound, of_body = bounds
+    if state.yielding is not None:
+        of_body = where(state.stuck & parameters.on_pier, NO_BOUND, of_body)
+    bound = where(of_body < bound, of_body, bound)
     # Friction on the road may bring the body to rest.
     stops = (motion.friction != 0.0) & ops.negate(parameters.on_pier) & (v * a < 0.0)
     stop = where(stops, -v / where(stops, a, 1.0), NO_BOUND)
     return where(stop < bound, stop, bound)
+
+
+def creep_to_rest(
+    state: State, yielding: Yielding, motion: LinearMotion, ops: Ops
+) -> tuple[State, Real]:
+    """Return the state once a creeping pier has all but come to rest, and the time it takes.
+
+    On its way nothing can happen: the spring of the body at rest unloads to R_y, and the engine has
+    left.
+    """
+    where, position = ops.where, state.position
+    engine_left = (state.engine.regime == FREE) & (position.u1 + position.vp <= 0.0)
+    on_road = state.stuck & ops.negate(motion.on_pier)
+    creeps = on_road & engine_left & (yielding.direction > 0.0)
+    if not ops.some(creeps):
+        return state, 0.0
+    creeping = creep(motion, position, ops)
+    creeps = creeps & (creeping.beta > 0.0) & (creeping.slow < 0.0)
+    ratio = -creeping.slow / where(creeps, 0.5 * HARDLY * yielding.largest, 1.0)
+    creeps = creeps & (ratio > 1.0)
+    if not ops.some(creeps):
+        return state, 0.0
+    h = ops.lib.log(where(creeps, ratio, 1.0)) / where(creeps, creeping.beta, 1.0)
+    end = coasting_position(motion, position, creeping, h, ops)
+    end = Position(*map(where, [creeps] * len(end), end, position))
+    state = state._replace(time=state.time + h, position=end)
+    return raise_peak(state, end.xp, state.time, creeps, ops), h
 
 
 def coast(
@@ -126,28 +201,32 @@ def coast(
 ) -> tuple[State, Real]:
     """Return the state at the end of coasting, and its length: zero where there is none."""
     where, some = ops.where, ops.some
-    constant: Flag = (
-        (motion.slope1 == 0.0)
-        & (motion.slope2 == 0.0)
-        & ops.negate(state.stuck & parameters.on_pier)
-    )
-    if not some(constant):
-        return state, 0.0
-    yielding = state.yielding
+    yielding, together, crept = state.yielding, state.stuck & parameters.on_pier, 0.0
+    constant: Flag = (motion.slope1 == 0.0) & (motion.slope2 == 0.0) & ops.negate(together)
     if yielding is not None:
-        b = motion.inverse_mp * parameters.pier_stiffness
-        motion = motion._replace(b=b, yield_force=0.0)
+        constant = (constant | (motion.slope1 == 0.0) & together) & (yielding.direction == 0.0)
+        state, crept = creep_to_rest(state, yielding, motion, ops)
+    if not some(constant):
+        return state, crept
+    if yielding is not None:  # those that yield are left out in the end, but have no frequency
+        motion = motion._replace(b=motion.inverse_mp * parameters.pier_stiffness)
     vibration = free_vibration(motion, state.position, ops)
     bound = time_without_change(parameters, state, motion, vibration, ops)
     # Where nothing ever changes, one period brings the highest peak; numerical: 1 % to spare.
     h = where(bound < NO_BOUND, SAFETY * bound, 1.01 * 2.0 * math.pi / vibration.omega)
     worthwhile = constant & (h * vibration.omega > PHASE)
     if yielding is not None:
-        farthest = abs(vibration.static) + ops.lib.hypot(vibration.y, vibration.q)
-        elastic = (yielding.direction == 0.0) & (farthest <= yielding.limit * (1.0 + ROUND_OFF))
-        worthwhile = worthwhile & elastic
+        farthest = abs(vibration.static) + vibration.reach(ops)
+        # What holds the body to the pier is F2 + m2 x_p''.
+        held = abs(motion.forces(state.position)[1])
+        held = held + parameters.body.mass * ops.lib.sqrt(motion.b) * vibration.fastest(ops)
+        worthwhile = (
+            worthwhile
+            & (farthest <= yielding.limit * (1.0 + ROUND_OFF))
+            & (ops.negate(together) | (held <= parameters.friction_force))
+        )
     if not some(worthwhile):
-        return state, 0.0
+        return state, crept
     h = where(worthwhile, h, 0.0)
     extremes = [vibration.first_maximum(ops)]
     if yielding is not None:
@@ -158,4 +237,4 @@ def coast(
     end = coasting_position(motion, state.position, vibration, h, ops)
     end = Position(*map(where, [worthwhile] * len(end), end, state.position))
     state = state._replace(time=state.time + h, position=end)
-    return raise_peak(state, end.xp, state.time, worthwhile, ops), h
+    return raise_peak(state, end.xp, state.time, worthwhile, ops), h + crept

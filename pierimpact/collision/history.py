@@ -9,7 +9,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.collision.coasting import coasting_position, free_vibration
+from pierimpact.collision.coasting import coasting_position, creep, free_vibration
 from pierimpact.collision.parameters import Collision
 from pierimpact.collision.regimes import LinearMotion, Position, State
 from pierimpact.collision.series import ARRAYS, FLOATS, TERMS, weights_of_all
@@ -195,7 +195,8 @@ class CollisionHistory:
     @cached_property
     def reaction(self) -> Array:
         """Reaction R = k_p x_p, x_p without its plastic part, shape (n,) [N]."""
-        return self._flat(self._reaction)
+        force, resistance = self.pier.stiffness * self._series(PIER), self.pier.yield_reaction
+        return self._flat(np.clip(force, -resistance, resistance))
 
     @property
     def member_forces(self) -> MemberForceHistory | None:
@@ -351,10 +352,12 @@ class CollisionHistory:
         for state, motion, length in self.steps:
             count = max(1, math.ceil(length / longest_step(motion, FLOATS) - 1e-9))
             pieces.append((state, motion, length / count))
+            if count > 1:
+                yields = state.yielding is not None and state.yielding.direction != 0.0
+                coasting = (creep if yields else free_vibration)(motion, state.position, FLOATS)
             for number in range(1, count):
                 t = number * length / count
-                vibration = free_vibration(motion, state.position, FLOATS)
-                position = coasting_position(motion, state.position, vibration, t, FLOATS)
+                position = coasting_position(motion, state.position, coasting, t, FLOATS)
                 later = state._replace(time=state.time + t, position=position)
                 pieces.append((later, motion, length / count))
         return pieces
@@ -414,19 +417,17 @@ class CollisionHistory:
         return self._column(lambda state: 0.0 if state.yielding is None else value(state.yielding))
 
     @cached_property
-    def _reaction(self) -> Array:
-        """Reaction, shape (pieces, fractions)."""
-        pier = self.pier
-        return np.clip(
-            pier.stiffness * self._series(PIER), -pier.yield_reaction, pier.yield_reaction
-        )
+    def _elastic(self) -> Array:
+        """Elastic part R/k_p of the pier's displacement, shape (pieces, fractions)."""
+        limit = self.pier.yield_reaction / self.pier.stiffness
+        return np.clip(self._series(PIER), -limit, limit)
 
     def _plastic_work(self) -> Array:
         if not self.pier.yields:
             return np.zeros_like(self.time)
         before = self._plastic(lambda yielding: yielding.path)
         yields = self._plastic(lambda yielding: yielding.direction)
-        going_on = np.abs(self._series(PIER) - self._reaction / self.pier.stiffness)
+        going_on = np.abs(self._series(PIER) - self._elastic)
         return self.pier.yield_reaction * self._flat(before + np.where(yields, going_on, 0.0))
 
     def _friction_work(self) -> Array:
@@ -438,7 +439,7 @@ class CollisionHistory:
         pier = self.pier
         return (
             0.5 * pier.mass * self.pier_velocity**2,
-            0.5 * self.reaction**2 / pier.stiffness,
+            0.5 * pier.stiffness * self._flat(self._elastic) ** 2,
         )
 
     def _damping_work(self) -> Array:

@@ -84,12 +84,13 @@ class State(NamedTuple):
 class LinearMotion(NamedTuple):
     """The linear equations of motion of one regime.
 
-    x_p'' = (F1 + γ F2 + on_pier F_f − Y)/m_p − B x_p − C x_p', with B = k_p/m_p and C = c_p/m_p
+    x_p'' = (F1 + γ F2 + F_c)/m_p − B x_p − C x_p', with B = k_p/m_p and C = c_p/m_p
     δ1'' = −F1/m1 − x_p''
     δ2'' = −(F2 + F_f)/m2 − γ x_p''
 
     Where the body sticks, 1/m2 = 0; where it sticks to the pier, both move as one mass, γ = 0
-    and m_p includes m2. Where the pier yields, Y = ±R_y and B = 0; else Y = 0.
+    and m_p includes m2. F_c is the friction where it acts on the pier; where the pier yields, B = 0
+    and ∓R_y is in F_c.
     """
 
     inverse_m1: Real
@@ -104,8 +105,8 @@ class LinearMotion(NamedTuple):
     intercept2: Real
     friction: Real
     on_pier: Flag
-    yield_force: Real = 0.0
-    pace: Real = 0.0  # bounds the step of a pier that yields where no stiffness does [1/s²]
+    pier_force: Real  # F_c
+    pace: Real  # B, and what bounds the step instead where the pier yields [1/s²]
 
     def forces(self, position: Position) -> tuple[Real, Real]:
         """Return the forces F1 and F2 of the springs [N]."""
@@ -176,19 +177,22 @@ def linear_motion(parameters: Parameters, state: State, ops: Ops) -> LinearMotio
         1.0 / (parameters.pier_mass + parameters.body.mass),
         1.0 / parameters.pier_mass,
     )
+    friction, b = state.slip * parameters.friction_force, inverse_mp * parameters.pier_stiffness
     motion = LinearMotion(
         inverse_m1=1.0 / parameters.engine.mass,
         inverse_m2=where(state.stuck, 0.0, 1.0 / parameters.body.mass),
         inverse_mp=inverse_mp,
         gamma=where(stuck_to_pier, 0.0, 1.0),
-        b=inverse_mp * parameters.pier_stiffness,
+        b=b,
         c=inverse_mp * parameters.pier_damping,
         slope1=state.engine.slope,
         slope2=state.body.slope,
         intercept1=state.engine.intercept,
         intercept2=state.body.intercept,
-        friction=state.slip * parameters.friction_force,
+        friction=friction,
         on_pier=parameters.on_pier,
+        pier_force=parameters.on_pier * friction,
+        pace=b,
     )
     if state.yielding is None:
         return motion
@@ -197,9 +201,9 @@ def linear_motion(parameters: Parameters, state: State, ops: Ops) -> LinearMotio
     length = parameters.engine.plateau_length + parameters.body.plateau_length
     rate = 0.1 * parameters.speed / length
     return motion._replace(
-        b=where(yields, 0.0, motion.b),
-        yield_force=direction * state.yielding.limit * parameters.pier_stiffness,
-        pace=where(yields, rate * rate, 0.0),
+        b=where(yields, 0.0, b),
+        pier_force=motion.pier_force - direction * state.yielding.limit * parameters.pier_stiffness,
+        pace=where(yields, rate * rate, b),
     )
 
 
@@ -207,7 +211,7 @@ def accelerations(motion: LinearMotion, position: Position) -> tuple[Real, Real,
     """Return δ1'', δ2'' and x_p'' [m/s²]."""
     F1, F2 = motion.forces(position)
     Fs, gamma = motion.friction, motion.gamma
-    force = F1 + gamma * F2 + motion.on_pier * Fs - motion.yield_force
+    force = F1 + gamma * F2 + motion.pier_force
     ap = motion.inverse_mp * force - motion.b * position.xp - motion.c * position.vp
     return -motion.inverse_m1 * F1 - ap, -motion.inverse_m2 * (F2 + Fs) - gamma * ap, ap
 

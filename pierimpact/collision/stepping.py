@@ -49,6 +49,7 @@ from pierimpact.collision.series import (
     terms_needed,
 )
 from pierimpact.collision.yielding import (
+    HARDLY,
     ROUND_OFF,
     YIELDING_ENDS,
     YIELDS_BACKWARD,
@@ -62,7 +63,6 @@ PIER_EXTREME = 8  # of its displacement: an event, but not a change of regime
 # Numerical settings.
 TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative to its scale
 HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
-HARDLY = 1e-11  # relative to the largest displacement of the pier
 STEPS = 100_000  # limit; no collision of the studied domain takes a hundredth of it
 
 Rates: TypeAlias = tuple[Real, Real, Real]  # value, first and second rate
@@ -113,9 +113,8 @@ def longest_step(motion: LinearMotion, ops: Ops) -> Real:
     """Return the step in which no mode of the regime turns by more than PHASE."""
     slope1, slope2, c = motion.slope1, motion.slope2, motion.c
     g1, g2 = motion.inverse_m1 * slope1, motion.inverse_m2 * slope2
-    square = motion.b + motion.inverse_mp * (slope1 + slope2) + ops.where(g1 > g2, g1, g2) + c * c
-    square = square + motion.pace
-    return PHASE / ops.lib.sqrt(square)
+    square = motion.pace + motion.inverse_mp * (slope1 + slope2)
+    return PHASE / ops.lib.sqrt(square + ops.where(g1 > g2, g1, g2) + c * c)
 
 
 def event_functions(
@@ -304,6 +303,8 @@ def prospects(
         (body, state.body, d2, state.cargo_contact),
     ):
         force = line.intercept + line.slope * d
+        if state.yielding is not None and spring is body:
+            energy = energy - kept_by_spring(parameters, state, force, state.yielding, ops)
         energy = energy + 0.5 * force**2 / spring.unloading_stiffness
         crushed = where(d > line.largest, d, line.largest)
         needed = spring.plateau_force * (spring.plateau_length - crushed)
@@ -319,6 +320,23 @@ def prospects(
     engine_left = (state.engine.regime == FREE) & (v1 <= 0.0)
     body_left = ((state.body.regime == FREE) & (v2 <= 0.0)) | state.stuck
     return no_contact & no_peak, engine_left & body_left
+
+
+def kept_by_spring(
+    parameters: Parameters, state: State, force: Real, yielding: Yielding, ops: Ops
+) -> Real:
+    """Return what the body's spring, with a force F2, keeps of its energy before the pier yields.
+
+    On the pier, what friction takes while it unloads; against a body at rest on the road, what is
+    left in it when the pier gets as far as R_y, and no more than the friction can hold.
+    """
+    where, friction = ops.where, parameters.friction_force
+    stiffness = parameters.body.unloading_stiffness
+    left = force - stiffness * (yielding.limit - state.position.xp)
+    left = where(state.stuck & (left > 0.0), where(left < friction, left, friction), 0.0)
+    rest = where(force > friction, force - friction, 0.0)
+    square = where(parameters.on_pier, force * force - rest * rest, left * left)
+    return 0.5 * square / stiffness
 
 
 def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:

@@ -13,6 +13,7 @@ from pierimpact.collision.series import Flag, Ops, Real
 YIELDS_FORWARD, YIELDS_BACKWARD, YIELDING_ENDS = 9, 10, 11
 
 ROUND_OFF = 1e-12  # numerical, relative: an undamped pier that has yielded swings as far again
+HARDLY = 1e-11  # numerical, relative to the largest displacement of the pier
 
 
 class Yielding(NamedTuple):
