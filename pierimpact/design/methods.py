@@ -355,7 +355,7 @@ def compare_methods(
     """
     speed, mass = _speeds_and_masses(speed, mass)
     collisions = [
-        Collision(truck.with_mass(m), pier, v) for v, m in zip(speed.flat, mass.flat, strict=True)
+        Collision(truck.loaded_to(m), pier, v) for v, m in zip(speed.flat, mass.flat, strict=True)
     ]
     histories = [simulate(each.truck, pier, each.speed, WINDOW) for each in collisions]
     energies = [_energy_after_blows(each) for each in collisions]
