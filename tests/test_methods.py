@@ -265,12 +265,12 @@ def test_every_line_is_that_of_its_method(contact):
     found = compare_methods(TRUCK, pier, speed, mass, contact)
     for row, column in np.ndindex(2, 3):
         v, m = float(speed[row, 0]), float(mass[column])
-        history = simulate(TRUCK.with_mass(m), pier, v)
+        history = simulate(TRUCK.loaded_to(m), pier, v)
         average = largest_average_force(history, WINDOW).force
         expected = {
             "peak_reaction": history.governing_peak.reaction,
             "average_force": average,
-            "energy_reaction": collapse_check(TRUCK.with_mass(m), pier, v, 1.0).reaction,
+            "energy_reaction": collapse_check(TRUCK.loaded_to(m), pier, v, 1.0).reaction,
         }
         for name, value in expected.items():
             assert getattr(found, name)[row, column] == pytest.approx(value, rel=1e-9), name
@@ -321,7 +321,7 @@ def test_the_check_errs_as_it_says():
     def ratio(mass, pier_mass, frequency, resistance):
         pier = EquivalentPier.from_frequency(pier_mass, frequency)
         pier = dataclasses.replace(pier, yield_reaction=resistance)
-        truck = TRUCK.with_mass(mass)
+        truck = TRUCK.loaded_to(mass)
         history = simulate(truck, pier, 80.0 / 3.6)
         reached = history.ductility * resistance / pier.stiffness
         return collapse_check(truck, pier, 80.0 / 3.6, reached).ratio
