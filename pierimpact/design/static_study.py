@@ -21,7 +21,7 @@ from pierimpact.design.domain import Range
 from pierimpact.design.static_forces import ABOVE, BELOW, StaticForcesInCollision
 from pierimpact.pier.column import PierColumn
 from pierimpact.pier.sections import CircularSection, RectangularSection
-from pierimpact.pier.static_forces import QUICK, TOP, StaticForces
+from pierimpact.pier.static_forces import QUICK, TOO_LOW, TOP, StaticForces
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
 
@@ -40,9 +40,8 @@ ENDS = (
     ("pinned", "fixed"),
     ("free", "fixed"),
 )
-#: The forces that are compared, the ratio below which a static one counts as too low, and the
-#: quantiles of the ratios: this project's choice.
-FORCES, TOO_LOW = ("shear", "moment"), 0.95
+#: The forces that are compared, and the quantiles of the ratios: this project's choice.
+FORCES = ("shear", "moment")
 QUANTILES = (0.05, 0.5, 0.95)
 #: Headings in the file; after the first, of columns not held at the top alone.
 RULES = "by the column", "by the collision"

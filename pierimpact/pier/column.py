@@ -204,13 +204,18 @@ class PierColumn:
             found |= calculation(**{name: found[name] for name in calculation.given})
         return found
 
+    @property
+    def stretches(self) -> list[tuple[Section, float, float]]:
+        """Each section with the heights from and to which the column has it, upward [m]."""
+        joints = [0.0 - self.embedment, *(step.height for step in self.steps), self.height]
+        sections = [self.section, *(step.section for step in self.steps)]
+        return [(own, *ends) for own, ends in zip(sections, pairwise(joints), strict=True)]
+
     @cached_property
     def arrangement(self) -> Arrangement:
         """The column as uniform parts between its supports."""
-        joints = [-self.embedment, *(step.height for step in self.steps), self.height]
-        sections = [self.section, *(step.section for step in self.steps)]
         parts = []
-        for section, (bottom, top) in zip(sections, pairwise(joints), strict=True):
+        for section, bottom, top in self.stretches:
             values = self.section_values(section)
             EI, GA, mbar = (values[name] for name in ("EI", "GA", "mbar"))
             rotary_inertia = self.density * section.mass_second_moment

@@ -492,9 +492,17 @@ class FreeSection(Section):
         return math.sqrt(12.0 * self.second_moment / self.area)
 
 
+@dataclass(frozen=True, kw_only=True)
 class _Filled(_Shape):
     """What both filled tubes have in common."""
 
+    dimensions: ClassVar = {
+        "wall_thickness": "t",
+        "modular_ratio": "alpha_E",
+        "density_ratio": "alpha_rho",
+    }
+    wall_thickness: float
+    modular_ratio: float
     density_ratio: float
 
     @property
@@ -530,15 +538,7 @@ class FilledCircularSection(_Filled, _Round):
     """
 
     calculation = filled_circle
-    dimensions: ClassVar = {
-        "diameter": "D",
-        "wall_thickness": "t",
-        "modular_ratio": "alpha_E",
-        "density_ratio": "alpha_rho",
-    }
-    wall_thickness: float
-    modular_ratio: float
-    density_ratio: float
+    dimensions: ClassVar = _Round.dimensions | _Filled.dimensions
 
     def _check(self) -> None:
         _leave_a_hole(self.wall_thickness, diameter=self.diameter)
@@ -566,16 +566,7 @@ class FilledRectangularSection(_Filled, _Wide):
     """
 
     calculation = filled_rectangle
-    dimensions: ClassVar = {
-        "width": "b",
-        "depth": "h",
-        "wall_thickness": "t",
-        "modular_ratio": "alpha_E",
-        "density_ratio": "alpha_rho",
-    }
-    wall_thickness: float
-    modular_ratio: float
-    density_ratio: float
+    dimensions: ClassVar = _Wide.dimensions | _Filled.dimensions
 
     def _check(self) -> None:
         _leave_a_hole(self.wall_thickness, width=self.width, depth=self.depth)

@@ -18,6 +18,8 @@ class StaticForcesWarning(UserWarning):
 
 #: Frequency f_p below which a pier is too slow for the engine's blow, from the study [Hz].
 LOWEST_FREQUENCY = 55.0
+#: Static over beam below which a static force counts as too low: this project's choice [-].
+TOO_LOW = 0.95
 
 
 class Ratios(NamedTuple):

@@ -3,14 +3,12 @@
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
 from pierimpact.pier.sections import RegularPolygonSection, Section
+from pierimpact.plots.dimension import draw_dimension, named
 from pierimpact.plots.style import INK, MUTED, VERMILION, sheet_figure, to_svg
-from pierimpact.symbols import SYMBOLS
-from pierimpact.units import printed
 
 _CONCRETE, _STEEL = "#dcd8d0", "#5b7083"
 
@@ -43,12 +41,17 @@ def draw_section(section: Section, system: str) -> str:
             place = (0.5 * wall, 0.75**0.5 * wall) if "D" in values else (0.25 * depth, wall)
             line: Any = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkB": 0.0}
             words = 0.5 * depth + unit, 0.5 * width + 0.6 * unit
-            axes.annotate(_named("t", values, system), place, words, arrowprops=line, va="center")
+            axes.annotate(
+                named("t", values["t"], system), place, words, arrowprops=line, va="center"
+            )
             axes.plot(*place, ".", color="white" if filled else INK, markersize=2.5)
         along = next(name for name in ("D", "h", "Df") if name in values)
-        _dimension(axes, along, values, system, place=-0.5 * width - unit, upright=False)
+        half, below = 0.5 * values[along], -0.5 * width - unit
+        label = named(along, values[along], system)
+        draw_dimension(axes, (-half, below), (half, below), label, "below")
         if "b" in values:
-            _dimension(axes, "b", values, system, place=0.5 * depth + unit, upright=True)
+            half, beside = 0.5 * values["b"], 0.5 * depth + unit
+            draw_dimension(axes, (beside, -half), (beside, half), named("b", values["b"], system))
         if isinstance(section, RegularPolygonSection) and section.sides % 2:
             inscribed = 0.5 * section.across_flats
             dotted: Any = {"fill": False, "edgecolor": MUTED, "linestyle": ":", "linewidth": 0.8}
@@ -88,21 +91,3 @@ def outline(section: Section, inset: float = 0.0) -> NDArray[np.float64]:
         return np.asarray(values["r"] * ends + np.sign(ends.round(9)) * (half - values["r"]))
     corners = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
     return np.asarray(half * corners)
-
-
-def _named(name: str, values: dict[str, float], system: str) -> str:
-    shown = printed(values[name], SYMBOLS[name].quantity, system, given=True)
-    return f"${SYMBOLS[name].latex}$ = {shown}"
-
-
-def _dimension(
-    axes: Axes, name: str, values: dict[str, float], system: str, *, place: float, upright: bool
-) -> None:
-    """Draw a dimension line with its name: upright at x = `place`, or level at y = `place`."""
-    half, line = 0.5 * values[name], {"color": INK, "linewidth": 0.6}
-    arrow: Any = {"arrowstyle": "<|-|>", "mutation_scale": 6.0, "shrinkA": 0.0, "shrinkB": 0.0}
-    ends = [(place, -half), (place, half)] if upright else [(-half, place), (half, place)]
-    axes.annotate("", ends[0], ends[1], arrowprops=arrow | line)
-    middle, offset = ((place, 0.0), (4.0, 0.0)) if upright else ((0.0, place), (0.0, -4.0))
-    align: Any = {"va": "center"} if upright else {"ha": "center", "va": "top"}
-    axes.annotate(_named(name, values, system), middle, offset, textcoords="offset points", **align)

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from pierimpact.design.static_forces import AS_LARGE
-from pierimpact.design.static_study import ENDS, FORCES, TOO_LOW, Columns, Found, column_kinds
-from pierimpact.pier.static_forces import LOWEST_FREQUENCY, TOP
+from pierimpact.design.static_study import ENDS, FORCES, Columns, Found, column_kinds
+from pierimpact.pier.static_forces import LOWEST_FREQUENCY, TOO_LOW, TOP
 from pierimpact.plots import style
 from pierimpact.plots.style import INK, PIXEL
 

@@ -174,10 +174,12 @@ class Calculation:
 
         None also where the case gives no moment resistance.
         """
-        resistance, peak = self.case.inputs.moment_resistance, self.governing_peak.reaction
-        if resistance is None or self.struck.yield_reaction(resistance) >= peak:
+        resistance = self.case.inputs.moment_resistance
+        if resistance is None:
             return None
         pier = replace(self.pier, yield_reaction=self.struck.yield_reaction(resistance))
+        if pier.yield_reaction >= self.governing_peak.reaction:
+            return None
         return simulate(self.case.truck, pier, self.case.inputs.speed)
 
     @cached_property

@@ -48,8 +48,8 @@ class ArrangedColumnSteps(EquivalentPierSteps):
         column, names = self.case.column, ("A", "I", "kappa", "EI", "GA", "mbar")
 
         def values(part: Part) -> dict[str, float]:
-            below = [step.section for step in column.steps if step.height <= part.bottom]
-            return column.section_values([column.section, *below][-1])
+            here = (own for own, low, high in column.stretches if low <= part.bottom < high)
+            return column.section_values(next(here))
 
         return Table(
             label="tab-parts",

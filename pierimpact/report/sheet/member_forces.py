@@ -133,8 +133,8 @@ class MemberForces(Section):
         history, inputs = self.calculation.yielding, self.case.inputs
         if history is None or inputs.moment_resistance is None:
             return None
-        moment = abs(self.calculation.struck.member_forces(1.0).largest_moment.value)
-        largest = float(np.abs(history.pier_displacement).max())
+        moment = inputs.moment_resistance / history.pier.yield_reaction
+        largest = history.ductility * history.pier.yield_reaction / history.pier.stiffness
         energy = history.pier_plastic_energy
         share = rounded(100.0 * energy / history.collision.energy, 3)
         most = r"\left| M \right|_\mathrm{max}"

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from pierimpact.design.codes import aashto_lrfd
 from pierimpact.design.domain import Outside
 from pierimpact.files.plausible import unusual
+from pierimpact.pier.static_forces import TOO_LOW
 from pierimpact.report.calculation import Calculation
 from pierimpact.report.document.blocks import (
     Block,
@@ -23,8 +24,6 @@ from pierimpact.vehicle.truck import another_truck
 #: Window of the average that the force of AASHTO LRFD was taken from, as read in NCHRP Report 892
 #: [s].
 AVERAGE = 0.025
-#: Static over beam below which the static member forces are called unsafe: this project's choice.
-UNSAFE = 0.95
 #: The member forces that are checked, and what kind of quantity they are.
 DEMANDS = {"shear": "force", "moment": "moment"}
 #: The methods by which they are found, in words.
@@ -177,7 +176,7 @@ def limitations(calculation: Calculation) -> Iterator[str]:
         if ratio > 1.0:
             yield f"The {name} is {rounded(ratio, 3)} times the resistance."
     for name, demand in calculation.demands.items():
-        if demand.ratio is not None and demand.ratio < UNSAFE:
+        if demand.ratio is not None and demand.ratio < TOO_LOW:
             yield (
                 f"The column as a beam takes {rounded(1.0 / demand.ratio, 3)} times the {name} "
                 "that the static reaction gives: one degree of freedom does not represent this "
