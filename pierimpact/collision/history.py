@@ -286,6 +286,18 @@ class CollisionHistory:
         )
 
     @cached_property
+    def road_impulse(self) -> Array:
+        """Impulse of the road's friction on the body since first touch, shape (n,) [N s]."""
+        if self._friction_on_pier:
+            return np.zeros_like(self.time)
+        # The friction on a body that sticks to the road balances its spring.
+        motion, stuck = self._motion, self._column(lambda state: state.stuck)
+        return self._accumulate(
+            (motion.friction - stuck * motion.intercept2) * self._lengths * self._fractions
+            - stuck * motion.slope2 * self._series(BODY, order=-1)
+        )
+
+    @cached_property
     def energy(self) -> EnergyShares:
         """Where the truck's energy is at each time."""
         truck = self.truck
@@ -325,15 +337,7 @@ class CollisionHistory:
         truck = self.truck
         initial = truck.mass * self.collision.speed
         momentum = truck.engine_mass * self.engine_velocity + truck.body_mass * self.body_velocity
-        impulse = self.impulse
-        if not self._friction_on_pier:
-            # The friction on a body that sticks to the road balances its spring.
-            motion, stuck = self._motion, self._column(lambda state: state.stuck)
-            impulse = impulse + self._accumulate(
-                (motion.friction - stuck * motion.intercept2) * self._lengths * self._fractions
-                - stuck * motion.slope2 * self._series(BODY, order=-1)
-            )
-        return float(np.max(np.abs(momentum + impulse - initial)) / initial)
+        return float(np.max(np.abs(momentum + self.impulse + self.road_impulse - initial)) / initial)
 
     @property
     def _friction_on_pier(self) -> bool:

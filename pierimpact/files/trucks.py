@@ -56,6 +56,7 @@ class TruckFile:
     parameters: tuple[Parameter, ...]  #: in the order of `Truck` and `CrushSpring`
     file_name: str  #: without its folder
     sha256: str  #: of the file's bytes, in hexadecimal
+    text: str  #: of the file
     mass_range: MassRange | None = None
 
     def __getitem__(self, name: str) -> Parameter:
@@ -103,7 +104,8 @@ def read_truck_file(name_or_path: str | Path, folder: str | Path = ".") -> Truck
 def _read(path: Path) -> TruckFile:
     try:
         content = path.read_bytes()
-        table = tomllib.loads(content.decode())
+        text = content.decode()
+        table = tomllib.loads(text)
     except OSError as error:
         raise InputError(f"truck file {path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
@@ -111,12 +113,12 @@ def _read(path: Path) -> TruckFile:
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"truck file {path} is not valid TOML: {error}") from None
     try:
-        return _truck_file(table, path.name, hashlib.sha256(content).hexdigest())
+        return _truck_file(table, path.name, hashlib.sha256(content).hexdigest(), text)
     except InputError as error:
         raise InputError(f"truck file {path.name}: {error}") from None
 
 
-def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile:
+def _truck_file(table: dict[str, Any], file_name: str, sha256: str, text: str) -> TruckFile:
     name, description, source, status = (
         _text(heading, table.pop(heading, None))
         for heading in ("name", "description", "source", "status")
@@ -147,6 +149,7 @@ def _truck_file(table: dict[str, Any], file_name: str, sha256: str) -> TruckFile
         parameters=parameters,
         file_name=file_name,
         sha256=sha256,
+        text=text,
         mass_range=mass_range,
     )
 

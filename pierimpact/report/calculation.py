@@ -10,12 +10,7 @@ from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.simulate import simulate
 from pierimpact.design.band import ReactionBand, reaction_band
 from pierimpact.design.codes import CodeForce, code_forces
-from pierimpact.design.reaction import (
-    LOW_IMPACT_HEIGHT,
-    DesignReaction,
-    design_reaction,
-    nominal_impact_height,
-)
+from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.design.sensitivity import Sensitivity, sensitivity
 from pierimpact.design.static_forces import StaticForcesInCollision
 from pierimpact.files.case import Case
@@ -62,23 +57,87 @@ class CodeEffect(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Calculation:
-    """A case, calculated."""
+class Impact:
+    """The collision of a case at one nominal impact height."""
 
     case: Case
-    struck: StruckColumn  #: the column under a unit force at the nominal impact height
+    struck: StruckColumn  #: the column under a unit force at that height
     history: CollisionHistory  #: the collision by the full model
-    trial: CollisionHistory | None  #: at the lower nominal height, where a rule decides on it
+
+    @property
+    def reaction(self) -> float:
+        """The larger of engine and cargo peak [N]."""
+        return self.history.governing_peak.reaction
+
+    @property
+    def lowest(self) -> Peak:
+        """The smallest reaction: the pier swings back, and is negative where it passes its rest."""
+        sample = int(self.history.reaction.argmin())
+        return Peak(float(self.history.reaction[sample]), float(self.history.time[sample]))
+
+    @property
+    def member_forces(self) -> MemberForces:
+        """Member forces under the reaction as a static force."""
+        return self.struck.member_forces(self.reaction)
+
+    @property
+    def reversed_forces(self) -> MemberForces:
+        """Member forces under the smallest reaction, as the pier swings back."""
+        return self.struck.member_forces(self.lowest.reaction)
+
+    @cached_property
+    def beam_forces(self) -> MemberForceHistory | None:
+        """Member forces of the column as a beam; None where the case asks for static ones."""
+        inputs = self.case.inputs
+        if inputs.member_forces == "static":
+            return None
+        beam = self.case.column.beam(self.struck.impact_height, inputs.damping_ratio)
+        return simulate(self.case.truck, beam, inputs.speed).member_forces
+
+    @property
+    def demands(self) -> dict[str, Demand]:
+        """Largest "shear" and "moment"."""
+        static, beam, asked = self.member_forces, self.beam_forces, self.case.inputs.member_forces
+        shear, moment = (
+            (None, None)
+            if beam is None
+            else (
+                abs(extremes.governing.value)
+                for extremes in (beam.shear_extremes, beam.moment_extremes)
+            )
+        )
+        return {
+            "shear": Demand(abs(static.largest_shear.value), shear, asked),
+            "moment": Demand(abs(static.largest_moment.value), moment, asked),
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class Calculation:
+    """A case, calculated at its nominal impact height, or at both where a range is asked for."""
+
+    case: Case
+    impacts: tuple[Impact, ...]  #: by height, upward
+
+    @cached_property
+    def governing(self) -> Impact:
+        """The impact with the larger reaction."""
+        return max(self.impacts, key=lambda impact: impact.reaction)
+
+    @property
+    def struck(self) -> StruckColumn:
+        """The column under a unit force at the height that governs."""
+        return self.governing.struck
+
+    @property
+    def history(self) -> CollisionHistory:
+        """The collision by the full model at the height that governs."""
+        return self.governing.history
 
     @property
     def pier(self) -> EquivalentPier:
         """The pier as one degree of freedom."""
         return self.history.pier
-
-    @cached_property
-    def design(self) -> DesignReaction:
-        """The design procedure at its long level."""
-        return design_reaction(self.case.truck, self.pier, self.case.inputs.speed, "long")
 
     @property
     def governing_peak(self) -> Peak:
@@ -87,33 +146,28 @@ class Calculation:
 
     @property
     def design_force(self) -> float:
-        """The result: the reaction of the design procedure, or the full model's if larger [N].
-
-        The procedure can be followed by hand, and errs on either side by some per cent; the full
-        model is exact, and cannot. So the number that can be followed is never on the unsafe side
-        of the one that is exact.
-        """
-        return max(self.design.reaction, self.governing_peak.reaction)
-
-    @property
-    def governing_method(self) -> str:
-        """The method that the result is of: "design procedure" or "full model"."""
-        return "design procedure" if self.ratio >= 1.0 else "full model"
+        """The result: the governing peak of the full model [N]."""
+        return self.governing.reaction
 
     @property
     def governs(self) -> str:
-        """Which peak the result is, by the method that it is from: engine or cargo."""
-        return self.design.governs if self.ratio >= 1.0 else self.history.governs
-
-    @property
-    def ratio(self) -> float:
-        """Reaction of the design procedure over the governing peak of the full model [-]."""
-        return self.design.reaction / self.governing_peak.reaction
+        """Which peak the result is: engine or cargo."""
+        return self.history.governs
 
     @cached_property
     def short(self) -> DesignReaction:
-        """The design procedure at its short level."""
+        """The spectrum method: the design procedure at its short level, the check by hand."""
         return design_reaction(self.case.truck, self.pier, self.case.inputs.speed, "short")
+
+    @cached_property
+    def long(self) -> DesignReaction:
+        """The design procedure at its long level."""
+        return design_reaction(self.case.truck, self.pier, self.case.inputs.speed, "long")
+
+    @property
+    def ratio(self) -> float:
+        """Reaction of the check by hand over that of the full model [-]."""
+        return self.short.reaction / self.design_force
 
     @cached_property
     def sensitivity(self) -> Sensitivity:
@@ -133,8 +187,8 @@ class Calculation:
 
     @property
     def member_forces(self) -> MemberForces:
-        """Member forces under the design force as a static force."""
-        return self.struck.member_forces(self.design_force)
+        """Member forces under the design reaction as a static force."""
+        return self.governing.member_forces
 
     @property
     def static_forces(self) -> StaticForcesInCollision:
@@ -143,30 +197,19 @@ class Calculation:
         return StaticForcesInCollision(self.struck.static_forces, self.design_force, largest)
 
     @cached_property
-    def beam_forces(self) -> MemberForceHistory | None:
-        """Member forces of the column as a beam; None where the case asks for static ones."""
-        inputs = self.case.inputs
-        if inputs.member_forces == "static":
-            return None
-        beam = self.case.column.beam(self.struck.impact_height, inputs.damping_ratio)
-        return simulate(self.case.truck, beam, inputs.speed).member_forces
-
-    @cached_property
     def demands(self) -> dict[str, Demand]:
-        """Largest "shear" and "moment"."""
-        static, beam, asked = self.member_forces, self.beam_forces, self.case.inputs.member_forces
-        shear, moment = (
-            (None, None)
-            if beam is None
-            else (
-                abs(extremes.governing.value)
-                for extremes in (beam.shear_extremes, beam.moment_extremes)
+        """Largest "shear" and "moment" of all impacts, each by the method that governs."""
+
+        def largest(name: str) -> Demand:
+            of_each = [impact.demands[name] for impact in self.impacts]
+            beams = [demand.beam for demand in of_each if demand.beam is not None]
+            return Demand(
+                max(demand.static for demand in of_each),
+                max(beams, default=None),
+                self.case.inputs.member_forces,
             )
-        )
-        return {
-            "shear": Demand(abs(static.largest_shear.value), shear, asked),
-            "moment": Demand(abs(static.largest_moment.value), moment, asked),
-        }
+
+        return {name: largest(name) for name in ("shear", "moment")}
 
     @cached_property
     def yielding(self) -> CollisionHistory | None:
@@ -177,10 +220,15 @@ class Calculation:
         resistance = self.case.inputs.moment_resistance
         if resistance is None:
             return None
-        pier = replace(self.pier, yield_reaction=self.struck.yield_reaction(resistance))
-        if pier.yield_reaction >= self.governing_peak.reaction:
+        yields = {
+            impact.reaction / limit: replace(impact.history.pier, yield_reaction=limit)
+            for impact in self.impacts
+            for limit in [impact.struck.yield_reaction(resistance)]
+        }
+        most = max(yields)
+        if most <= 1.0:
             return None
-        return simulate(self.case.truck, pier, self.case.inputs.speed)
+        return simulate(self.case.truck, yields[most], self.case.inputs.speed)
 
     @cached_property
     def average_forces(self) -> dict[float, AverageForce | None]:
@@ -216,15 +264,11 @@ class Calculation:
 def calculate(case: Case) -> Calculation:
     """Calculate a case."""
 
-    def struck_at(height: float) -> tuple[StruckColumn, CollisionHistory]:
+    def impact(height: float) -> Impact:
         struck = case.column.struck_at(height)
         pier = struck.equivalent(case.inputs.damping_ratio)
-        return struck, simulate(case.truck, pier, case.inputs.speed)
+        return Impact(
+            case=case, struck=struck, history=simulate(case.truck, pier, case.inputs.speed)
+        )
 
-    trial, height = None, case.inputs.impact_height
-    if height == "auto":
-        _, trial = struck_at(LOW_IMPACT_HEIGHT)
-        cargo = trial.cargo_peak.reaction if trial.cargo_peak else None
-        height = nominal_impact_height(trial.engine_peak.reaction, cargo)
-    struck, history = struck_at(height)
-    return Calculation(case=case, struck=struck, history=history, trial=trial)
+    return Calculation(case=case, impacts=tuple(map(impact, case.impact_heights)))

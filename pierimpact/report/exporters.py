@@ -4,9 +4,11 @@ Both are nbconvert exporters: `jupyter nbconvert --to pierimpact_pdf NOTEBOOK` w
 of pandoc turns the notebook's prose and all mathematics into HTML with MathML, or into Typst.
 """
 
+import base64
 import datetime
 import importlib.util
 import re
+import string
 import subprocess
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -62,8 +64,9 @@ class _SheetExporter(TemplateExporter):
             "paper": "a4",
             "landscape": False,
             "entries": [],
+            "running": [],
         }
-        blocks = list(self._blocks(nb))
+        blocks = list(_with_content(_printed(self._blocks(nb))))
         for block in blocks:
             if block["type"] == "TitleBlock":
                 sheet |= block
@@ -103,6 +106,30 @@ class _SheetExporter(TemplateExporter):
         if done.returncode != 0:
             raise RuntimeError(f"pandoc: {done.stderr.strip()}")
         return [piece.strip() for piece in re.split(rf"(?:<p>)?{_CUT}(?:</p>)?", done.stdout)]
+
+
+def _printed(blocks: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+    """Yield the blocks without annexes that are not to be printed, each with its letter."""
+    letters, printed = iter(string.ascii_uppercase), True
+    for block in blocks:
+        if block["type"] == "Annex":
+            printed = block["printed"]
+            if printed:
+                block = block | {"letter": next(letters)}
+        if printed:
+            yield block
+
+
+def _with_content(blocks: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+    """Yield the blocks without subheadings that nothing stands below."""
+    waiting: dict[str, Any] | None = None
+    for block in blocks:
+        below = block.get("markdown", "").startswith("## ")
+        if waiting and not below and block["type"] != "Annex":
+            yield waiting
+        waiting = block if below else None
+        if not below:
+            yield block
 
 
 def _parts(data: Any) -> Iterator[dict[str, Any]]:
@@ -222,6 +249,7 @@ class SheetPDFExporter(_SheetExporter):
         environment.comment_start_string, environment.comment_end_string = "((--", "--))"
         environment.autoescape, environment.finalize = True, _literal
         environment.filters["breakable"] = _breakable
+        environment.filters["bytes"] = _bytes
         return environment
 
     def from_notebook_node(
@@ -259,6 +287,11 @@ def _breakable(text: str) -> str:
     Only between ASCII characters, as others may join or stand on one another.
     """
     return re.sub(r"[!-~]{20,}", lambda word: "\u200b".join(word[0]), text)
+
+
+def _bytes(base64_text: str) -> Any:
+    """Return a file in base64 as the numbers that Typst makes bytes of."""
+    return Markup(", ".join(map(str, base64.b64decode(base64_text))) + ",")
 
 
 def compile_typst(source: str, date: str) -> tuple[bytes, str]:

@@ -5,7 +5,7 @@ Those that are numbered, tables, equations and figures, are in `numbered`.
 
 import base64
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
@@ -52,6 +52,9 @@ class TitleBlock(Block):
     title: str
     subtitle: str  #: line below the title
     entries: dict[str, str]  #: project, element and the like, by their labels
+    running: dict[str, str] = field(default_factory=dict)  #: more, for header and footer alone
+    office: str = ""  #: whose sheet it is
+    logo: tuple[str, str] | None = None  #: MIME type and, in base64, the file of its logo
     date: str  #: date of the sheet, as 2026-01-31
     paper: str  #: of the PDF, "a4" or "us-letter"
     landscape: bool = False  #: whether the sheet is wider than it is high
@@ -62,6 +65,42 @@ class Headline(Block):
     """The results in large type."""
 
     results: Sequence[tuple[str, Printed, str]]  #: label, value and remark of each
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verdict(Block):
+    """What the sheet comes to: a sentence, and a drawing beside the results in large type."""
+
+    statement: Inline
+    stops: bool  #: whether it says no
+    svg: str
+    alt: str  #: description of the drawing for readers who cannot see it
+    results: Sequence[tuple[str, Printed, Inline]]  #: label, value and remark of each
+
+
+@dataclass(frozen=True, kw_only=True)
+class Signatures(Block):
+    """Boxes to sign, and the revisions."""
+
+    signers: Sequence[tuple[str, str]]  #: what each has done, and the name
+    revisions: Sequence[Sequence[str]]  #: revision, date, description and name of each
+
+
+@dataclass(frozen=True, kw_only=True)
+class Annex(Block):
+    """The beginning of an annex, which goes on to the next; one not printed is left out."""
+
+    title: str
+    printed: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Beside(Block):
+    """Two blocks side by side, where the page is wide enough."""
+
+    left: Block
+    right: Block
+    share: float  #: of the width that the left one takes [-]
 
 
 @dataclass(frozen=True)
@@ -81,6 +120,14 @@ class Notes(Block):
     """Remarks in small type, a list."""
 
     notes: Sequence[Inline]  #: the remarks
+
+
+@dataclass(frozen=True)
+class Listing(Block):
+    """A text in a typeface of fixed width, under a heading."""
+
+    heading: str
+    text: str
 
 
 @dataclass(frozen=True)

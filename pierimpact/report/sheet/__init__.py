@@ -1,18 +1,21 @@
 """The calculation sheet of a case: a file for each of its headings, and a method for each block."""
 
 from pierimpact.files.case import Case
+from pierimpact.files.inputs import ANNEXES
 from pierimpact.report.calculation import calculate
+from pierimpact.report.document.blocks import Annex
 from pierimpact.report.results import Results
-from pierimpact.report.sheet.arranged_column import ArrangedColumnSteps
+from pierimpact.report.sheet.closing import Closing
 from pierimpact.report.sheet.codes import Codes
+from pierimpact.report.sheet.derivation import Derivation
 from pierimpact.report.sheet.design_procedure import DesignProcedure
 from pierimpact.report.sheet.equivalent_pier import EquivalentPierSteps
+from pierimpact.report.sheet.first_page import FirstPage
 from pierimpact.report.sheet.full_model import FullModel
 from pierimpact.report.sheet.inputs import Inputs
 from pierimpact.report.sheet.member_forces import MemberForces
-from pierimpact.report.sheet.nomenclature import Closing
 from pierimpact.report.sheet.sensitivity import Variations
-from pierimpact.report.sheet.summary import Summary
+from pierimpact.report.sheet.spectrum_method import SpectrumMethod
 
 
 class Sheet:
@@ -29,18 +32,28 @@ class Sheet:
     def __init__(
         self, case: Case, case_file: str | None = None, case_sha256: str | None = None
     ) -> None:
-        self.calculation = calculate(case)
-        self.summary = Summary(self.calculation)
+        self.case, self.calculation = case, calculate(case)
+        self.first_page = FirstPage(self.calculation)
         self.inputs = Inputs(self.calculation)
-        uniform = case.column.uniform
-        self.pier = (EquivalentPierSteps if uniform else ArrangedColumnSteps)(self.calculation)
-        self.procedure = DesignProcedure(self.calculation)
+        self.pier = EquivalentPierSteps(self.calculation)
         self.model = FullModel(self.calculation)
+        self.spectrum_method = SpectrumMethod(self.calculation)
         self.member_forces = MemberForces(self.calculation)
         self.codes = Codes(self.calculation)
         self.sensitivity = Variations(self.calculation)
-        sections = (self.inputs, self.pier, self.procedure, self.model, self.member_forces)
+        self.derivation = Derivation(self.calculation)
+        self.procedure = DesignProcedure(self.calculation)
+        sections = (
+            *(self.inputs, self.pier, self.model, self.spectrum_method, self.member_forces),
+            *(self.derivation, self.procedure),
+        )
         self.closing = Closing(self.calculation, sections, case_file, case_sha256)
+
+    def annex(self, name: str, title: str) -> Annex:
+        """Return the beginning of an annex, one of `ANNEXES`, which the case asks for or not."""
+        assert name in ANNEXES
+        changes = name == "changes" and self.case.superseded is not None
+        return Annex(title=title, printed=changes or name in self.case.inputs.annexes)
 
     def results(self) -> Results:
         """Return the results that a summary of several cases is made from."""

@@ -2,8 +2,9 @@
 
 from pierimpact.design.codes import CodeForce, Sourced
 from pierimpact.pier.member_forces import MemberForces
+from pierimpact.plots.codes import draw_code_bars
 from pierimpact.report.document.blocks import Block, Notes
-from pierimpact.report.document.numbered import Table, columns, decimal, wide
+from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.units import rounded
 
@@ -12,6 +13,37 @@ _UNKNOWN = "—"
 
 class Codes(Section):
     """The comparison with codes."""
+
+    def bars(self) -> Block:
+        """Return the forces of codes beside the averages of the contact force and the reaction."""
+        result = self.calculation
+        averages = {
+            window: average.force
+            for window, average in result.average_forces.items()
+            if average is not None
+        }
+        words = ", ".join(
+            f"{self.shown(force, 'force')} over {self.shown(window, 'time', given=True)}"
+            for window, force in averages.items()
+        )
+        band = result.band.quantiles() if result.band.spread else None
+        return Figure(
+            label="fig-codes",
+            caption="Forces of codes along the travel beside the largest moving averages of the "
+            "contact force and the design reaction"
+            + (" with its band (5 to 95 %)" if band is not None else "")
+            + ". The force of AASHTO LRFD was taken from a 25 ms average; the others are "
+            "equivalent static forces. Hatched: not read in the code itself.",
+            alt=f"Largest averages of the contact force: {words or 'none'}. The reaction is "
+            f"{self.shown(result.design_force, 'force')}.",
+            svg=draw_code_bars(
+                [effect.code for effect in result.code_effects],
+                averages,
+                result.design_force,
+                None if band is None else (band[0], band[2]),
+                self.system,
+            ),
+        )
 
     def forces(self) -> Block:
         """Return edition, clause, forces and height of each clause, and how sure they are."""

@@ -1,20 +1,22 @@
-"""The equivalent pier: section, unit forces, stiffness, shape function, mass and frequency."""
+"""The equivalent pier: section, unit force, stiffness, shape function, mass and frequency.
+
+What the unit force does to the column is a table for any column, from `pier.static`. A checker
+follows it: equilibrium, the deflection as the work of all parts and springs, and the equivalent mass
+as the sum over the parts. The closed formulas of uniform columns are in the annex of `derivation`.
+"""
 
 from collections.abc import Mapping
 from functools import cached_property
 
 import numpy as np
 
-from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
 from pierimpact.files.case import concrete_modulus
-from pierimpact.pier.arrangement import SUPPORTS
-from pierimpact.pier.equivalent import equivalent_mass, vibration
-from pierimpact.pier.sections import FreeSection
-from pierimpact.pier.unit_force import BY_ENDS
-from pierimpact.plots.elevation import draw_elevation
-from pierimpact.plots.section import draw_section
-from pierimpact.report.document.blocks import Block, Paragraph
-from pierimpact.report.document.markup import Ref, Tex, in_tex, inline, number_in_tex
+from pierimpact.pier.arrangement import Part
+from pierimpact.pier.equivalent import vibration
+from pierimpact.pier.static import Piece
+from pierimpact.plots.shape import draw_shape
+from pierimpact.report.document.blocks import Beside, Block, Paragraph
+from pierimpact.report.document.markup import Inline, Ref, Tex, in_tex, inline
 from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
 from pierimpact.report.document.step_writer import StepWriter
 from pierimpact.report.sheet.section import Section
@@ -25,49 +27,62 @@ _GIVEN = (
     *("D", "b", "h", "t", "Df", "ns", "Av", "alpha_E", "alpha_rho"),
     *("fc", "E", "nu", "rho", "psi", "EIe", "H", "z", "y", "zeta"),
 )
+_UNIT_FORCE = ("Rb", "Rt", "Mb", "Mn", "Mt")
 
 
-class EquivalentPierSteps(Section):
-    """The column as one degree of freedom, step by step."""
+class PierSection(Section):
+    """What the headings on the equivalent pier have in common."""
+
+    @cached_property
+    def _values(self) -> dict[str, float]:
+        """The values of the column and the pier, by symbol."""
+        strength = {"fc": self.case.inputs.concrete_strength or 0.0}
+        return self.calculation.struck.values | self.calculation.pier.values | strength
+
+    def _writer(
+        self, *, units: bool = True, quantities: Mapping[str, str] | None = None
+    ) -> StepWriter:
+        return StepWriter(self._values, self.system, _GIVEN, units=units, quantities=quantities)
+
+    @property
+    def section_names(self) -> set[str]:
+        """The properties of the section that print as equations with the pier itself."""
+        return set(self.case.column.section.calculation.names) & {"A", "I", "Am"}
+
+
+class EquivalentPierSteps(PierSection):
+    """The column as one degree of freedom."""
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the pier, by name."""
-        blocks = (self.section(), *self._unit_force, self.mass())
+        blocks = (self.section(), self.mass())
         steps = [equation.label for block in blocks for equation in block.equations]
-        others = dict.fromkeys(("height", "s", "phi"), "tab-shape")
-        return {label.removeprefix("eq-"): label for label in steps} | others
+        return (
+            {label.removeprefix("eq-"): label for label in steps}
+            | dict.fromkeys(_UNIT_FORCE, "tab-unit-force")
+            | {"kappa": "tab-parts", "xn": "tab-work", "height": "tab-shape", "phi": "tab-shape"}
+        )
 
     def impact_height(self) -> Block:
         """Return which nominal impact height is used, and why."""
-        low, high, used = (
-            str(self.shown(height, "length", given=True))
-            for height in (
-                LOW_IMPACT_HEIGHT,
-                HIGH_IMPACT_HEIGHT,
-                self.calculation.struck.impact_height,
-            )
-        )
-        symbol, trial = Tex(SYMBOLS["z"].latex), self.calculation.trial
-        if trial is None:
+        impacts, symbol = self.calculation.impacts, Tex(SYMBOLS["z"].latex)
+        used = self.shown(self.calculation.struck.impact_height, "length", given=True)
+        if len(impacts) == 1:
             return Paragraph(
                 ("The nominal impact height ", symbol, f" = {used} is given by the case.")
             )
-        engine = trial.engine_peak.reaction
-        found = f"A trial at {low} gives an engine peak of {self.shown(engine, 'force')}"
-        if trial.cargo_peak is None:
-            found += " and no cargo peak"
-        else:
-            cargo = trial.cargo_peak.reaction
-            ratio = rounded(cargo / engine, 3)
-            found += f" and a cargo peak of {self.shown(cargo, 'force')}, {ratio} of it"
+        found = " and ".join(
+            f"{self.shown(impact.reaction, 'force')} at "
+            f"{self.shown(impact.struck.impact_height, 'length', given=True)}"
+            for impact in impacts
+        )
         return Paragraph(
             (
-                "The case leaves the nominal impact height to the rule of the source paper: "
-                f"{low} without cargo peak or with a much smaller one, else {high}. Much smaller "
-                f"is taken as below {MUCH_SMALLER:g} of the engine peak, which is this project’s "
-                f"figure. {found}: ",
+                "The case leaves the nominal impact height to the source paper, which has one for "
+                "trucks whose engine governs and one for trucks whose cargo does. Both are "
+                f"calculated: the reaction is {found}. The larger governs, and the sheet follows ",
                 symbol,
-                f" = {used}.",
+                f" = {used}; shear and moment are the largest of both.",
             )
         )
 
@@ -82,57 +97,15 @@ class EquivalentPierSteps(Section):
             "Every printed value is rounded, so that a check by hand may differ in the last figure."
         )
 
-    def elevation(self) -> Block:
-        """Return the column in elevation, drawn to scale."""
-        column = self.case.column
-        base, top = (
-            next((name for name, own in SUPPORTS.items() if own == support), "on springs")
-            for support in column.supports
-        )
-        height = self.shown(column.height, "length", given=True)
-        impact = self.shown(self.calculation.struck.impact_height, "length", given=True)
-        return Figure(
-            label="fig-elevation",
-            caption="The column in elevation, to scale, and where it is struck.",
-            alt=f"The column, {height} high, base {base}, top {top}; the truck comes from the left "
-            f"and strikes at {impact}.",
-            svg=draw_elevation(self.calculation.struck, self.system),
-        )
-
-    def parts(self) -> Block | None:
-        """Return the parts of the column; None where it is of one."""
-        return None
-
-    def section_drawing(self) -> Block:
-        """Return the section drawn to scale, with its dimensions."""
-        section, shape = self.case.column.section, self.case.inputs.column_shape
-        if isinstance(section, FreeSection):
-            return Paragraph("The case gives the properties of the section, and not its shape.")
-        place = " at its base" if self.case.column.steps else ""
-        sizes = [
-            f"{SYMBOLS[symbol].meaning} {self.shown(value, 'section length', given=True)}"
-            for symbol, value in section.values.items()
-            if symbol in section.dimensions.values()
-            and SYMBOLS[symbol].quantity == "section length"
-        ]
-        return Figure(
-            label="fig-section",
-            caption=f"Section of the column{place}, {shape}, to scale.",
-            alt=f"The section, {shape}: {', '.join(sizes)}. The truck comes from the left.",
-            svg=draw_section(section, self.system),
-        )
-
     def section(self) -> Steps:
-        """Return area, rigidities and mass per length of the column."""
+        """Return area, second moment, rigidities and mass per length at the base of the column."""
         writer, column = self._writer(), self.case.column
         section = column.section.calculation
-        steps = section.steps(self._values, set(section.names) & {"A", "I", "kappa", "Am"})
+        steps = section.steps(self._values, self.section_names)
         for calculation in column.calculations(column.section)[1:]:
             steps += calculation.steps(self._values, calculation.names)
         equations: list[Equation] = []
         for step in steps:
-            if "U" in step.names:
-                equations.append(self._shear_integral())
             for name in step.names & {"psi", "EIe"}:
                 source = self._source_of(SYMBOLS[name].key)
                 step = step._replace(remark=f"${SYMBOLS[name].latex}$: {source}")
@@ -145,16 +118,6 @@ class EquivalentPierSteps(Section):
         """Return where the case has a value from."""
         inputs = self.case.inputs
         return inputs.sources.get(key) or inputs.assumed.get(key) or "given in the case file"
-
-    def _shear_integral(self) -> Equation:
-        """Return the integral of the shear stress where it has no closed form."""
-        return Equation(
-            label="eq-U",
-            name=inline(SYMBOLS["U"].heading),
-            symbol=SYMBOLS["U"].latex,
-            lines=[in_tex(self._writer().shown("U"))],
-            source="by numerical integration",
-        )
 
     def _concrete_modulus(self) -> Equation:
         """Return the modulus by the formula of ACI 318, its factor in the units of the sheet."""
@@ -180,106 +143,222 @@ class EquivalentPierSteps(Section):
             "unverified: check against the standard",
         )
 
-    def unit_forces(self) -> Block:
-        """Return support forces and moments under a unit force at the impact height."""
-        return self._unit_force[0]
+    @cached_property
+    def _pieces(self) -> tuple[Piece, ...]:
+        return self.calculation.struck.unit_force.pieces
 
-    def stiffness(self) -> Block:
-        """Return the deflection under the unit force, of flexure and shear, and the stiffness."""
-        return self._unit_force[1]
+    def _stretch(self, part: Part) -> str:
+        """Return from where to where a part goes."""
+        bottom, top = (self.shown(z, "length", given=True) for z in (part.bottom, part.top))
+        return f"{bottom.number} to {top}"
+
+    def static(self) -> Block:
+        """Return support forces, moments and works under a unit force at the impact."""
+        return Beside(left=self.unit_forces(), right=self.stiffness(), share=0.42)
 
     def shape(self) -> Block:
-        """Return the shape function below and above the impact, as polynomials with their terms."""
-        places = (("below", "b", "z / H"), ("above", "t", "(H - z) / H"))
-        shapes = [
-            Equation(
-                label=f"eq-shape-{where}",
-                name=f"Shape {where} the impact",
-                symbol=SYMBOLS["phi"].latex,
-                lines=[
-                    self._polynomial(end, in_values=False),
-                    self._polynomial(end, in_values=True)
-                    + rf" \quad \text{{with }} s = {place}",
-                ],
-                source="Eq. 2 of the source paper",
-            )
-            for where, end, place in places
-        ]  # fmt: skip
-        return Steps([*self._unit_force[2].equations, *shapes])
+        """Return the shape function as a figure, and its integrals part by part."""
+        return Beside(left=self.shape_figure(), right=self.shape_table(), share=0.36)
 
-    def _polynomial(self, end: str, *, in_values: bool) -> str:
-        """Return φ in LaTeX, with the symbols of its coefficients or with their values."""
-        text, values = "", self.calculation.struck.values
-        for power in range(4):
-            name = f"c{end}{power}"
-            if name not in values:
-                continue
-            value = values[name]
-            shown = SYMBOLS[name].latex
-            if in_values:
-                shown = number_in_tex(printed(abs(value), SYMBOLS[name].quantity, "SI"))
-            sign = "-" if in_values and value < 0.0 else "+" if text else ""
-            text += f"{sign} {shown}" + ("", r" \, s ")[power > 0] + f"^{power} " * (power > 1)
-        return text
-
-    def shape_table(self) -> Block:
-        """Return ordinates of the shape function, four equal intervals on either side."""
-        struck, height = self.calculation.struck, self.case.column.height
-        below = np.linspace(0.0, struck.impact_height, 5)
-        above = np.linspace(struck.impact_height, height, 5)
-        simpson = np.array([1.0, 4.0, 2.0, 4.0, 1.0]) / 12.0
-        check = sum(
-            float((part[-1] - part[0]) * (simpson @ struck.shape(part) ** 2))
-            for part in (below, above)
+    def shape_figure(self) -> Block:
+        """Return the shape function over the height of the column."""
+        struck = self.calculation.struck
+        largest = float(np.abs(struck.shape(np.linspace(*self._ends, 201))).max())
+        return Figure(
+            label="fig-shape",
+            caption=("Shape function ", Tex(SYMBOLS["phi"].latex), ", 1 at the impact."),
+            alt=f"Shape function over the height of the column: 1 at the impact, at most "
+            f"{rounded(largest, 3)}.",
+            svg=draw_shape(struck, self.system),
         )
-        rows = [
-            [self.number(z, "length"), *(self.number(phi**n, "ordinate") for n in (1, 2))]
-            for z, phi in ((z, float(struck.shape(z))) for z in (*below, *above[1:]))
-        ]
-        integral = in_tex(self.shown(check, "length"))
+
+    @property
+    def _ends(self) -> tuple[float, float]:
+        return self._pieces[0].part.bottom, self._pieces[-1].part.top
+
+    def mass_of_column(self) -> Block:
+        """Return how the equivalent mass compares with that of the column, in words."""
+        column, mass = self.case.column, self.calculation.pier.mass
+        share = mass / column.mass
+        words = f"The equivalent mass is {rounded(share, 3)} times the {self.shown(column.mass, 'mass')} of the column"
+        if column.top_mass:
+            words += f" without the {self.shown(column.top_mass, 'mass', given=True)} at its top"
+        if share > 1.0:
+            words += (
+                ": most of what moves is above the impact and moves farther than it, so that the "
+                "truck meets more than the whole column"
+            )
+        return Paragraph(f"{words}.")
+
+    def parts(self) -> Block:
+        """Return section properties, rigidities and mass per length of each part."""
+        column, names = self.case.column, ("A", "I", "kappa", "EI", "GA", "mbar")
+
+        def values(part: Part) -> dict[str, float]:
+            here = (own for own, low, high in column.stretches if low <= part.bottom < high)
+            return column.section_values(next(here))
+
         return Table(
-            label="tab-shape",
+            label="tab-parts",
+            caption="Parts of the column, from the base upward, with a joint at the impact.",
+            columns=columns(
+                "Part",
+                *(
+                    decimal((Tex(SYMBOLS[name].latex), f" [{unit}]" if unit else ""))
+                    for name in names
+                    for unit in [self.unit(SYMBOLS[name].quantity)]
+                ),
+            ),
+            rows=[
+                [
+                    self._stretch(piece.part),
+                    *(
+                        self.number(values(piece.part)[name], SYMBOLS[name].quantity)
+                        for name in names
+                    ),
+                ]
+                for piece in self._pieces
+            ],
+        )
+
+    def unit_forces(self) -> Block:
+        """Return support forces and moments under a unit force at the impact height."""
+        arm = r"(z_\mathrm{n} + H_\mathrm{e})" if self.case.column.embedment else r"z_\mathrm{n}"
+        return Table(
+            label="tab-unit-force",
             caption=(
-                "Shape function. As a check, Simpson’s rule over these ordinates, part by part, "
-                "gives ",
-                Tex(r"\int \varphi^2 \, \mathrm{d}z = " + integral),
-                ", to be compared with ",
-                Ref("Eq.", "eq-phi2"),
+                "Support forces and moments under a unit force at the impact: exact for uniform "
+                "parts, from the conditions at the supports and at the joints of the parts "
+                "(derived here). As a check, ",
+                Tex(r"R_\mathrm{b} + R_\mathrm{t} = 1"),
+                " and ",
+                Tex(
+                    r"M_\mathrm{b} + R_\mathrm{b} \, " + arm + r" = "
+                    r"M_\mathrm{t} + R_\mathrm{t} \, (H - z_\mathrm{n}) = M_\mathrm{n}"
+                ),
+                ".",
+            ),
+            columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
+            rows=[
+                [
+                    SYMBOLS[name].heading,
+                    Tex(SYMBOLS[name].latex),
+                    *self.shown(self._values[name], SYMBOLS[name].quantity),
+                ]
+                for name in _UNIT_FORCE
+            ],
+        )
+
+    def stiffness(self) -> Block:
+        """Return the deflection at the impact as the work of parts and springs."""
+        rows: list[list[Inline]] = [
+            [
+                self._stretch(piece.part),
+                *(self.number(work, "flexibility") for work in (piece.flexure, piece.shearing)),
+                self.number(piece.work, "flexibility"),
+            ]
+            for piece in self._pieces
+        ]
+        column, found = self.case.column, self.calculation.struck.unit_force
+        for name, support, force, moment in (
+            ("base", column.supports[0], found.base_force, found.base_moment),
+            ("top", column.supports[1], found.top_force, found.top_moment),
+        ):
+            if work := support.work(force, moment):
+                rows.append([f"Springs, {name}", "", "", self.number(work, "flexibility")])
+        rows.append(["Sum", "", "", self.number(found.deflection, "flexibility")])
+        unit = self.unit("flexibility")
+        return Table(
+            label="tab-work",
+            caption=(
+                "Deflection at the impact under the unit force, as its work: the integrals of ",
+                Tex("M^2 / EI"),
+                " and ",
+                Tex(r"V^2 / \kappa GA"),
+                " over each part, and ",
+                Tex(r"R^2 / k + M^2 / k_\theta"),
+                " of the springs. The sum is ",
+                Tex(SYMBOLS["xn"].latex),
                 ".",
             ),
             columns=columns(
-                decimal(("Height ", Tex("z"), f" [{self.unit('length')}]")),
-                decimal(Tex(r"\varphi")),
-                decimal(Tex(r"\varphi^2")),
+                "Part",
+                decimal(f"Flexure [{unit}]"),
+                decimal(f"Shear [{unit}]"),
+                decimal(f"Total [{unit}]"),
             ),
             rows=rows,
+            strong=[len(rows) - 1],
+        )
+
+    def shape_table(self) -> Block:
+        """Return the shape function part by part, its integrals, and the sum of the masses."""
+        struck, column = self.calculation.struck, self.case.column
+        squares = 1.0 / struck.unit_force.deflection**2
+        rows: list[list[Inline]] = []
+        for piece in self._pieces:
+            part, square = piece.part, piece.square * squares
+            z = np.linspace(part.bottom, part.top, 3)
+            rows.append(
+                [
+                    self._stretch(part),
+                    *(self.number(float(phi), "ordinate") for phi in struck.shape(z)),
+                    self.number(square, "length"),
+                    self.number(part.mass_per_length * square, "mass"),
+                ]
+            )
+        if column.top_mass:
+            phi = float(struck.shape(column.height))
+            mass = self.number(column.top_mass * phi**2, "mass")
+            rows.append(["Mass at the top", "", "", self.number(phi, "ordinate"), "", mass])
+        rows.append(["Sum", "", "", "", "", self.number(struck.mass, "mass")])
+        return Table(
+            label="tab-shape",
+            caption=(
+                "Shape function and equivalent mass, part by part: ",
+                Tex(
+                    r"m_\mathrm{p} = \sum \bar m \int \varphi^2 \, \mathrm{d}z"
+                    + (r" + m_\mathrm{t} \, \varphi(H)^2" if column.top_mass else "")
+                ),
+                " (Eq. 1 of the source paper).",
+            ),
+            columns=columns(
+                "Part",
+                decimal((Tex(r"\varphi"), " bottom")),
+                decimal("middle"),
+                decimal("top"),
+                decimal((Tex(r"\int \varphi^2 \, \mathrm{d}z"), f" [{self.unit('length')}]")),
+                decimal(f"Mass [{self.unit('mass')}]"),
+            ),
+            rows=rows,
+            strong=[len(rows) - 1],
         )
 
     def mass(self) -> Steps:
-        """Return equivalent mass, frequency and damping."""
+        """Return stiffness, equivalent mass, frequency and damping."""
         writer = self._writer(quantities={"kp": "mass stiffness"})
-        steps = equivalent_mass.steps(self._values, equivalent_mass.names)
-        steps += vibration.steps(self._values, vibration.names)
-        return Steps([*self._unit_force[3].equations, *map(writer.equation, steps)])
-
-    @cached_property
-    def _values(self) -> dict[str, float]:
-        """The values of the column and the pier, by symbol."""
-        strength = {"fc": self.case.inputs.concrete_strength or 0.0}
-        return self.calculation.struck.values | self.calculation.pier.values | strength
-
-    def _writer(
-        self, *, units: bool = True, quantities: Mapping[str, str] | None = None
-    ) -> StepWriter:
-        return StepWriter(self._values, self.system, _GIVEN, units=units, quantities=quantities)
-
-    @cached_property
-    def _unit_force(self) -> list[Steps]:
-        """The steps under the unit force: forces, stiffness, shape, and integrals of its square."""
-        column, writer = self.case.column, self._writer(units=False)
-        calculation = BY_ENDS[column.base, column.top]
-        steps = calculation.steps(self._values, calculation.names)
-        return [
-            Steps([writer.equation(step) for step in part])
-            for part in calculation.split(steps, "xfb", "sb", "phi2b")
-        ]
+        stiffness = in_tex(self.shown(self._values["kp"], "stiffness"))
+        flexibility = in_tex(self.shown(self._values["xn"], "flexibility"))
+        mass = in_tex(self.shown(self._values["mp"], "mass"))
+        return Steps(
+            [
+                Equation(
+                    label="eq-kp",
+                    name=SYMBOLS["kp"].heading,
+                    symbol=SYMBOLS["kp"].latex,
+                    lines=[
+                        rf"\frac{{1}}{{{SYMBOLS['xn'].latex}}}",
+                        rf"\frac{{1}}{{{flexibility}}} = {stiffness}",
+                    ],
+                    source="Eq. 3 of the source paper",
+                ),
+                Equation(
+                    label="eq-mp",
+                    name=SYMBOLS["mp"].heading,
+                    symbol=SYMBOLS["mp"].latex,
+                    lines=[mass],
+                    source=("Eq. 1 of the source paper, ", Ref("Table", "tab-shape")),
+                ),
+                *map(writer.equation, vibration.steps(self._values, vibration.names)),
+            ]
+        )

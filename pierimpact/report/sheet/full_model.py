@@ -1,8 +1,10 @@
-"""The collision by the full model: what it solves, its history and peaks, and the check by it."""
+"""The collision by the full model: what it solves, its history and peaks, and what balances."""
 
 from pierimpact.collision.history import Peak
-from pierimpact.plots.figures import draw_history
-from pierimpact.report.document.blocks import Block
+import numpy as np
+
+from pierimpact.plots.history import draw_history
+from pierimpact.report.document.blocks import Beside, Block
 from pierimpact.report.document.markup import Inline, Tex, in_tex
 from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
 from pierimpact.report.sheet.section import Section
@@ -57,14 +59,12 @@ class FullModel(Section):
             "x_i": "eq-model-crush",
             "x_p": "eq-model-pier",
             "R_t": "fig-history",
-            "R": "eq-design-reaction",
-            "R_D": "tab-check",
-            "R_M": "tab-check",
+            "R": "tab-peaks",
         }
 
     def history(self) -> Block:
         """Return reaction and contact force against time."""
-        history = self.calculation.history
+        result, history = self.calculation, self.calculation.history
         words = f"The engine peak is {self._peak_words(history.engine_peak)}"
         words += (
             "; there is no cargo peak"
@@ -78,7 +78,8 @@ class FullModel(Section):
                 Tex(r"R = k_\mathrm{p} x_\mathrm{p}"),
                 " (thick) and contact force between truck and pier (thin) against time.",
             ),
-            alt=f"Reaction against time. {words}.",
+            alt=f"Reaction against time. {words}. The lowest is "
+            f"{self._peak_words(result.governing.lowest)}.",
             svg=draw_history(history, self.system),
         )
 
@@ -86,7 +87,7 @@ class FullModel(Section):
         return f"{self.shown(peak.reaction, 'force')} after {self.shown(peak.time, 'time')}"
 
     def peaks(self) -> Block:
-        """Return contact times and peaks of engine and cargo, and which governs."""
+        """Return contact times, peaks and lowest point of the reaction, and which governs."""
         history = self.calculation.history
         peaks = (
             ("Engine", history.engine_contact_time, history.engine_peak),
@@ -102,10 +103,19 @@ class FullModel(Section):
             ]
             for name, contact, peak in peaks
         ]
+        lowest = self.calculation.governing.lowest
+        lowest_values = self.number(lowest.reaction, "force"), self.number(lowest.time, "time")
+        share = rounded(100.0 * lowest.reaction / self.calculation.design_force, 2)
+        rows.append(["Lowest", "", *lowest_values, f"reversal, {share} %"])
         time, force = self.unit("time"), self.unit("force")
         return Table(
             label="tab-peaks",
-            caption="Contacts and peak reactions.",
+            caption=(
+                "Contacts, peaks and lowest point of the reaction. The governing peak is the "
+                "design reaction ",
+                Tex(SYMBOLS["R"].latex),
+                ".",
+            ),
             columns=columns(
                 "",
                 decimal(f"Contact after [{time}]"),
@@ -116,6 +126,75 @@ class FullModel(Section):
             rows=rows,
             strong=[["engine", "cargo"].index(history.governs)],
         )
+
+    def energy(self) -> Block:
+        """Return where the truck's energy is at the governing peak and at the end."""
+        result, history = self.calculation, self.calculation.history
+        peak, energy = history.governing_peak, history.energy
+        shares: list[tuple[str, float, float]] = [
+            (name, float(np.interp(peak.time, history.time, values)), float(values[-1]))
+            for name, values in (
+                ("Motion of engine, body and pier", energy.kinetic),
+                ("Crushing of engine and body", energy.crush + energy.truck_elastic),
+                ("Friction", energy.friction),
+                ("Damping of the pier", energy.damping),
+            )
+        ]
+        strain = 0.5 * peak.reaction**2 / result.pier.stiffness
+        shares.insert(1, ("Deflection of the pier", strain, float(energy.pier_elastic[-1])))
+        shares.append(
+            ("Sum", sum(share[1] for share in shares), sum(share[2] for share in shares))
+        )
+        whole = self.shown(history.collision.energy, "energy")
+        return Table(
+            label="tab-energy",
+            caption=(
+                "Energy at the governing peak and at the end. The sums are the truck’s at first "
+                "touch, ",
+                Tex(r"(m_1 + m_2) \, V^2 / 2 = " + in_tex(whole)),
+                "; the deflection at the peak is ",
+                Tex(r"R_\mathrm{d}^2 / 2 k_\mathrm{p}"),
+                ".",
+            ),
+            columns=columns(
+                "Energy in",
+                decimal(f"Peak [{whole.unit}]"),
+                decimal(f"End [{whole.unit}]"),
+            ),
+            rows=[
+                [name, *(self.number(value, "energy") for value in values)]
+                for name, *values in shares
+            ],
+            strong=[len(shares) - 1],
+        )
+
+    def momentum(self) -> Block:
+        """Return where the truck's momentum has gone by the end."""
+        truck, history = self.case.truck, self.calculation.history
+        rows = [
+            ("Engine", truck.engine_mass * float(history.engine_velocity[-1])),
+            ("Body and cargo", truck.body_mass * float(history.body_velocity[-1])),
+            ("Impulse on the pier", float(history.impulse[-1])),
+            ("Impulse of the road’s friction", float(history.road_impulse[-1])),
+        ]
+        rows.append(("Sum", sum(value for _, value in rows)))
+        whole = self.shown(truck.mass * self.case.inputs.speed, "impulse")
+        return Table(
+            label="tab-momentum",
+            caption=(
+                "Momentum at the end, and impulses up to then. The sum is the truck’s at first "
+                "touch, ",
+                Tex(r"(m_1 + m_2) \, V = " + in_tex(whole)),
+                ".",
+            ),
+            columns=columns("Of", decimal(f"Value [{whole.unit}]")),
+            rows=[[name, self.number(value, "impulse")] for name, value in rows],
+            strong=[len(rows) - 1],
+        )
+
+    def balances(self) -> Block:
+        """Return energy and momentum, the check by hand of the full model."""
+        return Beside(left=self.energy(), right=self.momentum(), share=0.56)
 
     def averages(self) -> Block:
         """Return the largest contact force and its largest moving averages."""
@@ -141,60 +220,4 @@ class FullModel(Section):
                 decimal(f"From [{self.unit('time')}]"),
             ),
             rows=rows,
-        )
-
-    def check(self) -> Block:
-        """Return the design procedure beside the full model, with the ratio."""
-        history = self.calculation.history
-        long, short = self.calculation.design, self.calculation.short
-        cargo = history.cargo_peak
-        reactions = {
-            "Engine": (history.engine_peak.reaction, long.engine, short.engine),
-            "Cargo": (cargo.reaction if cargo else None, long.cargo, short.cargo),
-            "Governing": (history.governing_peak.reaction, long.reaction, short.reaction),
-        }
-        rows: list[list[Inline]] = []
-        for name, (exact, *closed) in reactions.items():
-            rows.append([name, self.number(exact, "force")])
-            for value in closed:
-                ratio = "" if value is None or exact is None else rounded(value / exact, 3)
-                rows[-1] += [self.number(value, "force"), ratio]
-        force = self.unit("force")
-        return Table(
-            label="tab-check",
-            caption="Reactions by the full model and by the two levels of the design procedure, "
-            "each with its ratio to the full model.",
-            columns=columns(
-                "Reaction",
-                decimal(f"Full model [{force}]"),
-                decimal(f"Design procedure [{force}]"),
-                decimal("Ratio"),
-                decimal(f"Short level [{force}]"),
-                decimal("Ratio"),
-            ),
-            rows=rows,
-            strong=[2],
-        )
-
-    def design_reaction(self) -> Steps:
-        """Return the design reaction: the larger of procedure and full model."""
-        result = self.calculation
-        procedure, model, larger = (
-            in_tex(self.shown(force, "dynamic force"))
-            for force in (
-                result.design.reaction,
-                result.governing_peak.reaction,
-                result.design_force,
-            )
-        )
-        names = ", ".join(SYMBOLS[name].latex for name in ("R_D", "R_M"))
-        return Steps(
-            [
-                Equation(
-                    label="eq-design-reaction",
-                    name="Design reaction: procedure or full model",
-                    symbol=SYMBOLS["R"].latex,
-                    lines=[rf"\max({names})", rf"\max({procedure}, {model}) = {larger}"],
-                )
-            ]
         )

@@ -4,9 +4,10 @@ import re
 from typing import Any
 
 from pierimpact.files.inputs import PHYSICAL_KEYS, SectionInputs
-from pierimpact.report.document.blocks import Block
+from pierimpact.plots.crush import draw_crush_curves
+from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.markup import Inline, Tex
-from pierimpact.report.document.numbered import Table, columns, decimal, wide
+from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, NAMES, Symbol
 
@@ -60,9 +61,71 @@ class Inputs(Section):
             value, source = case.truck.mass, f"truck file {case.truck_file.file_name}"
             status = "given"
         if value == "auto":
-            value = "by the rule"
+            value = "both, of the rule"
         source += self._as_given(symbol, value, case.given.get(key))
         return self._row(symbol, value, status, source)
+
+    def notes(self) -> Block | None:
+        """Return the notes of the case; None where it has none."""
+        notes = self.case.inputs.notes
+        return Notes(list(notes)) if notes else None
+
+    def truck(self) -> Block:
+        """Return the parameters of the truck in short."""
+        case, truck = self.case, self.case.truck
+        kinds = ("mass", "force", "length", "stiffness", "stiffness")
+        symbols = ("m_i", "P_i", "d_i", "k_i", r"k_{\mathrm{u}i}")
+        rows: list[list[Inline]] = []
+        for name, mass, spring in (
+            ("Engine, 1", truck.engine_mass, truck.engine_spring),
+            ("Body and cargo, 2", truck.body_mass, truck.body_spring),
+        ):
+            values = (
+                mass,
+                spring.plateau_force,
+                spring.plateau_length,
+                spring.stiffness,
+                spring.unloading_stiffness,
+            )
+            rows.append(
+                [
+                    name,
+                    *(
+                        self.number(value, kind, given=True)
+                        for value, kind in zip(values, kinds, strict=True)
+                    ),
+                ]
+            )
+        friction = self.shown(truck.friction_force, "force", given=True)
+        return Table(
+            label="tab-springs",
+            caption=f"The truck {truck.name}, {case.truck_file.status.words}: "
+            f"{case.truck_file.description}. Masses, plateau forces and lengths, steep and "
+            f"unloading stiffnesses; friction {friction} on the body from the {truck.friction_on}.",
+            columns=columns(
+                "Body",
+                *(
+                    decimal((Tex(symbol), f" [{self.unit(kind)}]"))
+                    for symbol, kind in zip(symbols, kinds, strict=True)
+                ),
+            ),
+            rows=rows,
+        )
+
+    def crush_curves(self) -> Block:
+        """Return the force of either spring over its crush."""
+        truck = self.case.truck
+        forces = [
+            self.shown(spring.plateau_force, "force", given=True)
+            for spring in (truck.engine_spring, truck.body_spring)
+        ]
+        return Figure(
+            label="fig-crush",
+            caption="Force of engine and body on the pier over crush: a plateau, a steep rise, and "
+            "a steeper line of unloading.",
+            alt=f"The crush curves have plateaus of {forces[0]} and {forces[1]}.",
+            svg=draw_crush_curves(truck, self.system),
+        )
 
     def truck_table(self) -> Block:
         """Return the parameters of the truck, with source and status."""

@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from pierimpact.plots.figures import draw_member_forces
+from pierimpact.plots.envelopes import draw_envelopes
+from pierimpact.report.calculation import Demand
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Inline, Tex
-from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
+from pierimpact.report.document.numbered import Figure, Table, columns, decimal
 from pierimpact.report.sheet.section import Section
-from pierimpact.report.sheet.summary import DEMANDS, METHODS, verdict
+from pierimpact.report.sheet.first_page import DEMANDS
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
 
@@ -23,56 +24,86 @@ class MemberForces(Section):
     def table(self) -> Block:
         """Return shear and moment at base, impact and top, and the largest, by both methods."""
         result = self.calculation
-        static, beam = result.member_forces, result.beam_forces
+        static, back = result.member_forces, result.governing.reversed_forces
         rows: list[list[Inline]] = []
         for name, symbol, corner, quantity in (
-            ("Shear at the base", r"R_\mathrm{d} \, R_\mathrm{b}", 0, "force"),
-            ("Shear at the top", r"-R_\mathrm{d} \, R_\mathrm{t}", 3, "force"),
-            ("Moment at the base", r"R_\mathrm{d} \, M_\mathrm{b}", 0, "moment"),
-            ("Moment at the impact", r"R_\mathrm{d} \, M_\mathrm{n}", 1, "moment"),
-            ("Moment at the top", r"R_\mathrm{d} \, M_\mathrm{t}", 3, "moment"),
+            ("Shear at the base", r"R \, R_\mathrm{b}", 0, "force"),
+            ("Shear at the top", r"-R \, R_\mathrm{t}", 3, "force"),
+            ("Moment at the base", r"R \, M_\mathrm{b}", 0, "moment"),
+            ("Moment at the impact", r"R \, M_\mathrm{n}", 1, "moment"),
+            ("Moment at the top", r"R \, M_\mathrm{t}", 3, "moment"),
         ):
-            of_static = static.shear if quantity == "force" else static.moment
-            rows.append([name, Tex(symbol), self.number(float(of_static[corner]), quantity)])
-            if beam is not None:
-                place = int(np.argmin(np.abs(beam.z - static.z[corner])))
-                ends = (
-                    (beam.largest_shear, beam.smallest_shear)
-                    if quantity == "force"
-                    else (beam.largest_moment, beam.smallest_moment)
-                )
-                # Of a free or pinned end nothing but round-off is left.
-                least = 1e-9 * (result.demands["shear" if quantity == "force" else "moment"].value)
-                # Beyond an end that is struck there is no beam whose shear could be given.
-                struck = corner != 1 and static.z[corner] == static.impact_height
-                rows[-1] += [
-                    ""
-                    if struck and quantity == "force"
-                    else self.number(value if abs(value) > least else 0.0, quantity)
-                    for value in (float(envelope[place]) for envelope in ends)
+            values = [
+                float((forces.shear if quantity == "force" else forces.moment)[corner])
+                for forces in (static, back)
+            ]
+            rows.append(
+                [
+                    name,
+                    Tex(symbol),
+                    *(self.number(value, quantity) for value in values),
+                    *self._beam_at(corner, quantity),
+                    self.unit(quantity),
                 ]
-            rows[-1].append(self.unit(quantity))
-        for name, quantity in DEMANDS.items():
-            demand = result.demands[name]
-            sign = SYMBOLS["V_max" if name == "shear" else "M_max"].latex
-            rows.append([f"Largest {name}", Tex(sign), self.number(demand.static, quantity)])
-            if demand.beam is not None:
-                rows[-1] += [self.number(demand.beam, quantity), ""]
-            rows[-1].append(self.unit(quantity))
-        by_beam = () if beam is None else (decimal("Beam, largest"), decimal("Beam, smallest"))
+            )
+        several = len(result.impacts) > 1
+        for impact in result.impacts if several else ():
+            height = self.shown(impact.struck.impact_height, "length", given=True)
+            rows += [self._largest(name, impact.demands[name], f", struck at {height}") for name in DEMANDS]
+        rows += [
+            self._largest(name, result.demands[name], " of both" if several else "")
+            for name in DEMANDS
+        ]
+        by_beam = (
+            ()
+            if result.governing.beam_forces is None
+            else (decimal("Beam, largest"), decimal("smallest"))
+        )
         return Table(
             label="tab-members",
-            caption="Shear and moment: under the design reaction as a static force at the impact"
-            + ("." if beam is None else ", and during the collision with the column as a beam."),
-            columns=columns("Quantity", "Static symbol", decimal("Static"), *by_beam, "Unit"),
+            caption="Shear and moment: under the design reaction and under the lowest reaction as "
+            "static forces at the impact"
+            + ("" if not by_beam else ", and during the collision with the column as a beam")
+            + (". Values at one place are for the height that governs." if several else "."),
+            columns=columns(
+                "Quantity", "Static", decimal("Peak"), decimal("Reversed"), *by_beam, "Unit"
+            ),
             rows=rows,
-            strong=[5, 6],
+            strong=[len(rows) - 2, len(rows) - 1],
         )
+
+    def _beam_at(self, corner: int, quantity: str) -> list[Inline]:
+        """Return largest and smallest value of the beam at a corner of the static diagrams."""
+        result = self.calculation
+        static, beam = result.member_forces, result.governing.beam_forces
+        if beam is None:
+            return []
+        # Beyond an end that is struck there is no beam whose shear could be given.
+        if quantity == "force" and corner != 1 and static.z[corner] == static.impact_height:
+            return ["", ""]
+        place = int(np.argmin(np.abs(beam.z - static.z[corner])))
+        ends = (
+            (beam.largest_shear, beam.smallest_shear)
+            if quantity == "force"
+            else (beam.largest_moment, beam.smallest_moment)
+        )
+        # Of a free or pinned end nothing but round-off is left; the share is numerical.
+        least = 1e-9 * result.demands["shear" if quantity == "force" else "moment"].value
+        values = (float(envelope[place]) for envelope in ends)
+        return [self.number(value if abs(value) > least else 0.0, quantity) for value in values]
+
+    def _largest(self, name: str, demand: Demand, where: str) -> list[Inline]:
+        """Return the row of a largest shear or moment."""
+        quantity = DEMANDS[name]
+        sign = SYMBOLS["V_max" if name == "shear" else "M_max"].latex
+        beam = [] if demand.beam is None else [self.number(demand.beam, quantity), ""]
+        static = self.number(demand.static, quantity)
+        return [f"Largest {name}{where}", Tex(sign), static, "", *beam, self.unit(quantity)]
 
     def comparison(self) -> Block:
         """Return where and when the largest forces of the beam are, and which method governs."""
         result = self.calculation
-        beam, demands = result.beam_forces, result.demands
+        beam, demands = result.governing.beam_forces, result.governing.demands
         if beam is None:
             return Paragraph(
                 "The case asks for static member forces: the column was not calculated as a beam."
@@ -95,31 +126,27 @@ class MemberForces(Section):
         return Paragraph(" ".join([*sentences, choice]))
 
     def diagrams(self) -> Block:
-        """Return the diagrams of shear and moment."""
+        """Return the envelopes of shear and moment, with the resistances."""
         result, inputs = self.calculation, self.case.inputs
-        forces = result.member_forces
-        height = self.shown(forces.impact_height, "length", given=True)
         largest = {
             name: self.shown(result.demands[name].value, quantity)
             for name, quantity in DEMANDS.items()
         }
-        envelope = (
-            ""
-            if result.beam_forces is None
-            else ("; shaded, the envelope of both signs with the column as a beam")
-        )
         given = inputs.shear_resistance is not None or inputs.moment_resistance is not None
         return Figure(
             label="fig-members",
-            caption="Shear and moment under the design reaction (lines)"
-            + envelope
-            + ("; dashed, the resistances" if given else "")
+            caption="Shear and moment over the height: dashed, under the design reaction and, "
+            "reversed, under the lowest one as static forces"
+            + ("" if inputs.member_forces == "static" else "; filled, the beam’s envelopes of both signs")
+            + ("; vertical, the resistances" if given else "")
             + ". Moment positive where the far face is in tension.",
-            alt=f"The column with the design reaction at {height}, and its diagrams. The largest "
-            f"shear is {largest['shear']}, the largest moment {largest['moment']}.",
-            svg=draw_member_forces(
-                forces,
-                result.beam_forces,
+            alt=f"Envelopes of shear and moment. The largest shear is {largest['shear']}, the "
+            f"largest moment {largest['moment']}.",
+            svg=draw_envelopes(
+                [
+                    (impact.member_forces, impact.reversed_forces, impact.beam_forces)
+                    for impact in result.impacts
+                ],
                 (inputs.shear_resistance, inputs.moment_resistance),
                 self.system,
             ),
@@ -161,52 +188,4 @@ class MemberForces(Section):
             columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
             rows=[[name, Tex(symbol) if symbol else "", *shown] for name, symbol, shown in rows],
             strong=[3],
-        )
-
-    def utilisation(self) -> Block:
-        """Return demand, resistance, utilisation and verdict of shear and moment."""
-        inputs, result = self.case.inputs, self.calculation
-        if not result.utilisations:
-            return Paragraph("The case gives no resistance: utilisations are not calculated.")
-        rows: list[list[Inline]] = []
-        resistances = (inputs.shear_resistance, inputs.moment_resistance)
-        for (name, quantity), resistance in zip(DEMANDS.items(), resistances, strict=True):
-            demand = result.demands[name]
-            shown, unit = self.shown(demand.value, quantity)
-            cells: list[Inline] = [name.capitalize(), METHODS[demand.method], shown]
-            ratio = result.utilisations.get(name)
-            if ratio is None or resistance is None:
-                rows.append([*cells, "not given", unit, "", "not checked"])
-                continue
-            limit = self.number(resistance, quantity, given=True)
-            rows.append([*cells, limit, unit, rounded(ratio, 3), verdict(ratio)])
-        symbols = {name: Tex(SYMBOLS[name].latex) for name in ("V_max", "M_max", "V_R", "M_R")}
-        return Table(
-            label="tab-utilisation",
-            caption=(
-                "Utilisation: the largest member force by the method that governs, ",
-                symbols["V_max"],
-                " or ",
-                symbols["M_max"],
-                ", over its resistance, ",
-                symbols["V_R"],
-                " or ",
-                symbols["M_R"],
-                ".",
-            ),
-            columns=columns(
-                "Check",
-                "By",
-                decimal("Largest force"),
-                decimal("Resistance"),
-                "Unit",
-                decimal("Utilisation"),
-                wide("Verdict"),
-            ),
-            rows=rows,
-            strong=[
-                number
-                for number, name in enumerate(DEMANDS)
-                if result.utilisations.get(name, 0.0) > 1.0
-            ],
         )

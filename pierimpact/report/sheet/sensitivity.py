@@ -2,7 +2,8 @@
 
 from pierimpact.design.sensitivity import MASS_CHANGE, SPEED_CHANGE
 from pierimpact.plots.band import draw_band
-from pierimpact.plots.figures import draw_sensitivity, draw_spectra
+from pierimpact.plots.figures import draw_sensitivity
+from pierimpact.plots.tornado import draw_tornado
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal
@@ -14,23 +15,22 @@ from pierimpact.units import rounded
 class Variations(Section):
     """What the reaction depends on."""
 
-    def spectra(self) -> Block:
-        """Return the engine's and the cargo's reaction against pier frequency."""
-        result, frequency = self.calculation, self.calculation.pier.frequency
-        pier, cargo = self.shown(frequency, "frequency"), result.history.cargo_peak
-        words = f"an engine peak of {self.shown(result.history.engine_peak.reaction, 'force')} and "
-        words += (
-            "no cargo peak"
-            if cargo is None
-            else f"a cargo peak of {self.shown(cargo.reaction, 'force')}"
-        )
+    def tornado(self) -> Block:
+        """Return what moves the governing reaction most."""
+        result = self.calculation
+        step = self.shown(result.sensitivity.speed_change, "speed", given=True)
+        spread = " and the truck’s parameters within their spread" if result.band.spread else ""
         return Figure(
-            label="fig-spectra",
-            caption="Reaction against pier frequency at this pier’s mass and damping; this pier, "
-            f"{pier}, is marked.",
-            alt=f"Spectra of engine and cargo reaction. At this pier’s {pier} the full model gives "
-            f"{words}.",
-            svg=draw_spectra(result.sensitivity.frequency, frequency, self.system),
+            label="fig-tornado",
+            caption=f"Governing reaction by the full model as one thing changes: speed by {step}, "
+            f"mass by {100.0 * MASS_CHANGE:g} % with other cargo, the impact height{spread}.",
+            alt="What moves the governing reaction, the largest change first.",
+            svg=draw_tornado(
+                result.sensitivity,
+                result.band,
+                result.design_force,
+                self.system,
+            ),
         )
 
     def figure(self) -> Block:
@@ -42,7 +42,7 @@ class Variations(Section):
             "impact_height": result.struck.impact_height,
             "frequency": result.pier.frequency,
         }
-        forces = result.governing_peak.reaction, result.design.reaction
+        forces = result.governing_peak.reaction, result.short.reaction
         speeds = result.sensitivity.speed
         ends = " and ".join(
             f"{self.shown(float(speeds.model[i]), 'force')} at "
@@ -88,7 +88,7 @@ class Variations(Section):
         speed, mass = self.case.inputs.speed, self.case.truck.mass
         step = self.shown(SPEED_CHANGE, "speed", given=True)
         share = f"{100.0 * MASS_CHANGE:g} %"
-        here = result.design.reaction, result.governing_peak.reaction
+        here = result.short.reaction, result.governing_peak.reaction
         rows = [self._row("This case", "", *here)]
         for name, variation, quantity, value in (
             (f"Speed less {step}", found.slower, "speed", speed - SPEED_CHANGE),
@@ -104,12 +104,12 @@ class Variations(Section):
         force = self.unit("force")
         return Table(
             label="tab-sensitivity",
-            caption="Reactions at other speeds and masses; the last column is the larger of "
-            "procedure and full model, over that of this case.",
+            caption="Reactions at other speeds and masses; the last column is the full "
+            "model’s over that of this case.",
             columns=columns(
                 "Change",
                 "Value",
-                decimal(f"Design procedure [{force}]"),
+                decimal(f"Spectrum method [{force}]"),
                 decimal(f"Full model [{force}]"),
                 decimal("Ratio"),
                 decimal("Over this case"),
@@ -119,6 +119,6 @@ class Variations(Section):
         )
 
     def _row(self, name: str, value: str, design: float, model: float) -> list[Inline]:
-        over = max(design, model) / self.calculation.design_force
+        over = model / self.calculation.design_force
         forces = self.number(design, "force"), self.number(model, "force")
         return [name, value, *forces, rounded(design / model, 3), rounded(over, 3)]

@@ -1,4 +1,4 @@
-"""The last pages: nomenclature, and what the sheet was made from."""
+"""The end of the sheet: what it was made from, its symbols, and what changed since the last one."""
 
 import platform
 import re
@@ -6,14 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import yaml
 
 import pierimpact
-from pierimpact.report.document.blocks import Block, Nomenclature
-from pierimpact.report.document.markup import Code, Inline, Ref, Tex, inline
+from pierimpact.report.document.blocks import Block, Listing, Nomenclature, Notes, Paragraph
+from pierimpact.report.document.markup import Code, Inline, Piece, Ref, Tex, inline
 from pierimpact.report.document.numbered import Table, columns, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
+
+_SHORT = 16  # digits of a checksum that tell it from any other at a glance: this project's choice
 
 # The Greek alphabet, as LaTeX has it.
 _GREEK = (
@@ -41,6 +44,32 @@ class Closing(Section):
     case_file: str | None
     case_sha256: str | None
 
+    def made_from(self) -> Block:
+        """Return in three lines what the sheet was made from."""
+        truck_file = self.case.truck_file
+        case_file: list[Piece] = ["The case was set in the notebook."]
+        if self.case_file and self.case_sha256:
+            case_file = [
+                "Case file ",
+                Code(self.case_file),
+                ", SHA-256 ",
+                Code(self.case_sha256[:_SHORT]),
+                "….",
+            ]
+        return Notes(
+            [
+                f"{_software()}; energy balance {_closes(self.calculation.history.energy_error)}.",
+                tuple(case_file),
+                (
+                    "Truck file ",
+                    Code(truck_file.file_name),
+                    f", {truck_file.status.words}, SHA-256 ",
+                    Code(truck_file.sha256[:_SHORT]),
+                    "….",
+                ),
+            ]
+        )
+
     def nomenclature(self) -> Block:
         """Return every symbol of the sheet, its meaning and where it stands, by alphabet."""
         labels: dict[str, str] = {}
@@ -58,9 +87,7 @@ class Closing(Section):
     def provenance(self) -> Block:
         """Return what this sheet was made from and how to make it again."""
         truck_file, history = self.case.truck_file, self.calculation.history
-        software = f"pierimpact {pierimpact.__version__}, "
-        software += f"Python {platform.python_version()}, NumPy {np.__version__}"
-        rows: list[list[Inline]] = [["Software", software]]
+        rows: list[list[Inline]] = [["Software", _software()]]
         if self.case_file and self.case_sha256:
             rows += [
                 ["Case file", Code(self.case_file)],
@@ -69,13 +96,11 @@ class Closing(Section):
             ]
         else:
             rows.append(["Case file", "not recorded: the parameters were set in the notebook"])
-        energy = _closes(history.energy_error, "the truck’s initial energy")
-        momentum = _closes(history.momentum_error, "the truck’s initial momentum")
         rows += [
             ["Truck file", (Code(truck_file.file_name), f", {truck_file.status.words}")],
             ["its SHA-256", Code(truck_file.sha256)],
-            ["Energy balance", energy],
-            ["Momentum balance", momentum],
+            ["Energy balance", _closes(history.energy_error)],
+            ["Momentum balance", _closes(history.momentum_error)],
         ]
         return Table(
             label="tab-provenance",
@@ -83,6 +108,19 @@ class Closing(Section):
             columns=columns("Item", wide("Value")),
             rows=rows,
         )
+
+    def case_as_read(self) -> Block:
+        """Return the case as it was read, key by key."""
+        given = yaml.safe_dump(dict(self.case.given), allow_unicode=True, sort_keys=False, width=88)
+        return Listing("The case as it was read", given)
+
+    def truck_file(self) -> Block:
+        """Return the truck file in full."""
+        return Listing("The truck file", self.case.truck_file.text)
+
+    def changes(self) -> Block | None:
+        """Return what changed since the case that this one supersedes; None where it has none."""
+        return None
 
 
 def _kind(label: str) -> str:
@@ -98,5 +136,12 @@ def _by_alphabet(entry: tuple[str, object]) -> tuple[int, int, str, str]:
     return (1, _GREEK.index(name), symbol, entry[0]) if name in _GREEK else (2, 0, symbol, "")
 
 
-def _closes(error: float, whole: str) -> str:
-    return f"closes to {rounded(error, 1)} of {whole}, at all times"
+def _software() -> str:
+    return (
+        f"pierimpact {pierimpact.__version__}, Python {platform.python_version()}, "
+        f"NumPy {np.__version__}"
+    )
+
+
+def _closes(error: float) -> str:
+    return f"closes to {rounded(error, 1)} of what the truck brings, at all times"

@@ -1,0 +1,131 @@
+"""What a reader must know before relying on a result, what is least safe first."""
+
+import math
+from collections.abc import Iterator, Sequence
+
+from pierimpact.design.domain import Outside
+from pierimpact.files.plausible import unusual
+from pierimpact.pier.static_forces import TOO_LOW
+from pierimpact.report.calculation import Calculation
+from pierimpact.symbols import BY_KEY, SYMBOLS
+from pierimpact.units import printed, rounded, unit_size
+from pierimpact.vehicle.truck import another_truck
+
+
+def warnings_of(calculation: Calculation) -> list[str]:
+    """Return all that limits the results of a case, a sentence or two each.
+
+    They are in the order of what they do to safety: what fails; where the method gives too little;
+    where an input is likely wrong or is no evidence; where only a check says less than it could.
+    """
+    return [
+        *_exceeded(calculation),
+        *_too_low(calculation),
+        *_another_truck(calculation),
+        *_unusual(calculation),
+        *_unknown(calculation),
+        *_unchecked(calculation),
+    ]
+
+
+def _exceeded(calculation: Calculation) -> Iterator[str]:
+    for name, ratio in calculation.utilisations.items():
+        if ratio > 1.0:
+            yield f"The {name} is {rounded(ratio, 3)} times the resistance."
+
+
+def _too_low(calculation: Calculation) -> Iterator[str]:
+    """Yield where the reaction as a static force gives too little."""
+    beyond = {
+        name: 1.0 / demand.ratio
+        for name, demand in calculation.demands.items()
+        if demand.ratio is not None and demand.ratio < TOO_LOW
+    }
+    if beyond:
+        times = " and ".join(
+            f"{rounded(ratio, 3)} times the {name}" for name, ratio in beyond.items()
+        )
+        yield (
+            f"The column as a beam takes {times} that the static reaction gives: one degree of "
+            "freedom does not represent this column."
+        )
+    if calculation.governing.beam_forces is None and not calculation.static_forces.hold:
+        yield calculation.static_forces.sentence
+
+
+def _another_truck(calculation: Calculation) -> Iterator[str]:
+    """Yield where the truck's mass is beyond what its springs stand for."""
+    case = calculation.case
+    mass_range = case.truck_file.mass_range
+    if mass_range is not None and not case.truck.in_mass_range:
+        masses = (
+            str(printed(value, "mass", case.inputs.units, given=True))
+            for value in (case.truck.mass, mass_range.low, mass_range.high)
+        )
+        yield (
+            f"{another_truck(case.truck.name, *masses)} The range is {mass_range.status.words}: "
+            f"{mass_range.source}."
+        )
+
+
+def _unusual(calculation: Calculation) -> Iterator[str]:
+    system = calculation.case.inputs.units
+    for key, *values in unusual(calculation.case.inputs):
+        _, quantity, meaning, _ = BY_KEY[key]
+        value, unit = printed(values[0], quantity, system, given=True)
+        size = unit_size(quantity, system)
+        least, most = (rounded(end / size, 2) for end in values[1:])
+        yield (
+            f"Unusual: {meaning} {value} {unit}".rstrip()
+            + f", where {least} to {most} is usual. Check the value and its unit."
+        )
+
+
+def _unknown(calculation: Calculation) -> Iterator[str]:
+    """Yield which inputs nobody has measured."""
+    case, status = calculation.case, calculation.case.truck_file.status
+    if not status.verified:
+        yield (
+            f"The truck {case.truck.name} is {status.words} ({case.truck_file.source}). "
+            "The results are no better than its parameters."
+        )
+    if not calculation.band.spread:
+        yield "The truck’s parameters carry no spread, as if they were known exactly."
+    if case.inputs.assumed:
+        names = ", ".join(BY_KEY[key].meaning for key in case.inputs.assumed)
+        yield f"Assumed, not given by any source: {names}."
+    if case.column.top_mass and math.isinf(case.column.supports[1].stiffness):
+        yield "The mass at the top has no effect: the top of this column does not move sideways."
+
+
+def _unchecked(calculation: Calculation) -> Iterator[str]:
+    """Yield where the formulas of the check by hand were not tried."""
+    short, system = calculation.short, calculation.case.inputs.units
+    limits = "; ".join(limits_of_the_study(short.outside, short.overlapping, system))
+    if limits:
+        yield (
+            "The spectrum method was not tried on cases like this one, and is no check of the full "
+            f"model here. {limits[:1].upper()}{limits[1:]}."
+        )
+
+
+def limits_of_the_study(outside: Sequence[Outside], overlapping: bool, system: str) -> list[str]:
+    """Return a clause for each limit of the study behind the procedure that the case exceeds.
+
+    Parameters
+    ----------
+    outside : sequence of Outside
+        The values outside the studied domain.
+    overlapping : bool
+        Whether the cargo meets the pier before the engine has separated.
+    system : {"SI", "US"}
+        Units to print in.
+    """
+    clauses = []
+    for name, *values in outside:
+        _, quantity, meaning, _ = SYMBOLS[name]
+        shown, least, most = (printed(value, quantity, system, given=True) for value in values)
+        clauses.append(f"{meaning} {shown} outside the studied {least.number} to {most}")
+    if overlapping:
+        clauses.append("the cargo meets the pier before the engine has separated")
+    return clauses
