@@ -1,7 +1,5 @@
 """Truck files: every parameter with its value, unit, source and status."""
 
-import hashlib
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,6 +7,7 @@ from typing import Any, NamedTuple
 
 from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError, brief, did_you_mean, known, number, one_line, one_of
+from pierimpact.files.toml_table import read_table
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY, dimension
 from pierimpact.units import parse
@@ -102,16 +101,11 @@ def read_truck_file(name_or_path: str | Path, folder: str | Path = ".") -> Truck
 
 def _read(path: Path) -> TruckFile:
     try:
-        content = path.read_bytes()
-        table = tomllib.loads(content.decode())
-    except OSError as error:
-        raise InputError(f"truck file {path} cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"truck file {path} is not UTF-8 text") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"truck file {path} is not valid TOML: {error}") from None
+        table, sha256 = read_table(path)
+    except InputError as error:
+        raise InputError(f"truck file {path} {error}") from None
     try:
-        return _truck_file(table, path.name, hashlib.sha256(content).hexdigest())
+        return _truck_file(table, path.name, sha256)
     except InputError as error:
         raise InputError(f"truck file {path.name}: {error}") from None
 
