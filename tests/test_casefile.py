@@ -1,5 +1,6 @@
 import datetime
 import hashlib
+import json
 import math
 import re
 import shutil
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 import pierimpact
 from pierimpact.checks import InputError
 from pierimpact.files.case import (
+    NOTEBOOK_PARAMETERS,
     SHAPES,
     Case,
     case_from,
@@ -24,6 +26,7 @@ from pierimpact.files.inputs import KEYS, PHYSICAL_KEYS, Inputs
 from pierimpact.report.calculation import calculate
 from pierimpact.report.results import Results
 from pierimpact.report.summary import column_in_words
+from pierimpact.report.write import report_notebook
 
 CASE = {
     "project": "Example overpass",
@@ -376,11 +379,17 @@ def test_no_file_or_a_folder(tmp_path):
 
 
 def test_the_parameters_of_a_notebook_are_a_case():
-    namespace = dict.fromkeys((*KEYS, "case_file", "case_sha256")) | CASE
+    namespace = dict.fromkeys((*KEYS, *NOTEBOOK_PARAMETERS)) | CASE
     namespace |= {"re": re, "_": 3, "__name__": "__main__", "In": ["", "x"], "Out": {1: 2}}
     assert case_from_notebook(namespace) == case_from(CASE)
     with pytest.raises(InputError, match="'sped' is not a key of a case file; did you mean speed"):
         case_from_notebook(namespace | {"sped": "80 km/h"})
+
+
+def test_the_notebook_lists_every_key():
+    parameters = json.loads(report_notebook().read_text("utf-8"))["cells"][0]["source"]
+    listed = re.findall(r"^(\w+) = None$", "".join(parameters), re.MULTILINE)
+    assert sorted(listed) == sorted((*KEYS, *NOTEBOOK_PARAMETERS))
 
 
 def test_every_physical_key_can_have_a_source():

@@ -13,6 +13,7 @@ import yaml
 from pierimpact.checks import InputError, brief
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.files.inputs import Inputs, SectionInputs, read_inputs
+from pierimpact.files.office import Logo, read_logo, read_shared_file
 from pierimpact.files.trucks import TruckFile, read_truck_file
 from pierimpact.pier.column import PierColumn, Step
 from pierimpact.pier.sections import (
@@ -31,7 +32,7 @@ from pierimpact.symbols import SYMBOLS
 from pierimpact.vehicle.truck import Truck
 
 #: Parameters of the report notebook that are no keys of a case file.
-NOTEBOOK_PARAMETERS = ("case_file", "case_sha256")
+NOTEBOOK_PARAMETERS = ("case_file", "case_sha256", "shared_sha256")
 #: Sections by column_shape.
 SHAPES: dict[str, type[Section]] = {
     "circular": CircularSection,
@@ -55,6 +56,16 @@ class Case:
     column: PierColumn
     truck: Truck  #: with the mass of the case
     truck_file: TruckFile  #: with the source and status of each parameter
+    logo: Logo | None = None
+    #: SHA-256 of the `pierimpact.toml` that gave some of the values; None where there is none.
+    shared_sha256: str | None = None
+    #: The case file that this case supersedes; its own is not read.
+    superseded_file: "CaseFile | None" = None
+
+    @property
+    def superseded(self) -> "Case | None":
+        """The case that this case supersedes."""
+        return None if self.superseded_file is None else self.superseded_file.case
 
     @property
     def impact_heights(self) -> tuple[float, ...]:
@@ -69,32 +80,53 @@ class CaseFile:
 
     name: str  #: without its folder
     sha256: str  #: of the file's bytes, in hexadecimal
-    values: Mapping[str, object]  #: by key, as YAML has them
+    values: Mapping[str, object]  #: by key, as YAML and `pierimpact.toml` have them
     case: Case
 
     @property
     def parameters(self) -> dict[str, Any]:
         """The parameters of the report's notebook, as plain values."""
-        values = {
-            key: value.isoformat() if isinstance(value, datetime.date) else value
-            for key, value in self.values.items()
+        values: dict[str, Any] = _with_plain_dates(self.values)
+        return values | {
+            "case_file": self.name,
+            "case_sha256": self.sha256,
+            "shared_sha256": self.case.shared_sha256,
         }
-        return values | {"case_file": self.name, "case_sha256": self.sha256}
+
+
+def _with_plain_dates(value: Any) -> Any:
+    """Return a value with its dates as text, which JSON has no other way for."""
+    if isinstance(value, Mapping):
+        return {key: _with_plain_dates(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_with_plain_dates(item) for item in value]
+    return value.isoformat() if isinstance(value, datetime.date) else value
 
 
 def read_case_file(path: str | Path) -> CaseFile:
     """Return a case file with its case.
 
+    What it does not give, a `pierimpact.toml` in its folder may.
+
     Raises
     ------
     InputError
-        When the file cannot be read or breaks a rule; the message is one line.
+        When a file cannot be read or breaks a rule; the message is one line.
     """
-    path = Path(path)
+    return _read(Path(path), follow=True)
+
+
+def _read(path: Path, *, follow: bool) -> CaseFile:
+    """Return a case file; with the one that it supersedes, if any, where `follow` is true."""
     try:
         content = path.read_bytes()
         values = _yaml_values(content)
-        case = case_from(values, folder=path.parent)
+        shared = read_shared_file(path.parent)
+        if shared is not None:
+            own = {key: value for key, value in values.items() if value is not None}
+            values = values | shared.values | own
+        sha256 = None if shared is None else shared.sha256
+        case = _case(values, path.parent, sha256, path.name, follow=follow)
     except OSError as error:
         raise InputError(f"{path.name}: cannot be read: {error.strerror}") from None
     except InputError as error:
@@ -128,13 +160,24 @@ def _yaml_values(content: bytes) -> dict[str, object]:
 def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:
     """Return the case of keys and values as a case file has them; None counts as not given.
 
-    A relative path of a truck file starts from `folder`.
+    Relative paths, of a truck file, a logo or the case superseded, start from `folder`.
 
     Raises
     ------
     InputError
         When a key is unknown or missing, or a value breaks a rule.
     """
+    return _case(values, Path(folder))
+
+
+def _case(
+    values: Mapping[str, object],
+    folder: Path,
+    shared_sha256: str | None = None,
+    file_name: str | None = None,
+    *,
+    follow: bool = True,
+) -> Case:
     inputs = read_inputs(values)
     truck_file = read_truck_file(inputs.truck, folder)
     case = Case(
@@ -143,6 +186,9 @@ def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:
         column=_column(inputs),
         truck=_with_mass(truck_file.truck, inputs.truck_mass),
         truck_file=truck_file,
+        logo=None if inputs.logo is None else read_logo(inputs.logo, folder),
+        shared_sha256=shared_sha256,
+        superseded_file=_superseded(inputs.supersedes, folder, file_name) if follow else None,
     )
     for impact_height in case.impact_heights:  # an error here is better than one halfway
         try:
@@ -154,6 +200,18 @@ def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:
                 ) from None
             raise
     return case
+
+
+def _superseded(name: str | None, folder: Path, file_name: str | None) -> CaseFile | None:
+    if name is None:
+        return None
+    path = folder / name
+    if file_name is not None and path.resolve() == (folder / file_name).resolve():
+        raise InputError(f"supersedes must be an earlier case file, got {name}, which is this one")
+    try:
+        return _read(path, follow=False)
+    except InputError as error:
+        raise InputError(f"supersedes {error}") from None
 
 
 def case_from_notebook(namespace: Mapping[str, object]) -> Case:
@@ -174,7 +232,13 @@ def case_from_notebook(namespace: Mapping[str, object]) -> Case:
         and name not in (*NOTEBOOK_PARAMETERS, "In", "Out")
         and isinstance(value, str | int | float | list | dict | datetime.date | None)
     }
-    return case_from(values)
+    file_name, shared_sha256 = (namespace.get(key) for key in ("case_file", "shared_sha256"))
+    return _case(
+        values,
+        Path(),
+        shared_sha256 if isinstance(shared_sha256, str) else None,
+        file_name if isinstance(file_name, str) else None,
+    )
 
 
 def concrete_modulus(strength: float) -> float:

@@ -2,7 +2,7 @@
 
 import datetime
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo
 
@@ -82,6 +82,16 @@ def _texts_by_key(name: str, value: Any) -> dict[str, str]:
     return {key: _text(f"{name}.{key}", text) for key, text in value.items()}
 
 
+def _annexes(name: str, value: Any) -> tuple[str, ...]:
+    if value == "all":
+        return ANNEXES
+    if not isinstance(value, list | tuple):
+        raise InputError(f"{name} must be all or a list ({', '.join(ANNEXES)}), got {brief(value)}")
+    for annex in value:
+        known(annex, ANNEXES, f"an annex ({', '.join(ANNEXES)})")
+    return tuple(annex for annex in ANNEXES if annex in value)
+
+
 def _date(name: str, value: Any) -> datetime.date:
     try:
         return value if type(value) is datetime.date else datetime.date.fromisoformat(value)
@@ -90,8 +100,15 @@ def _date(name: str, value: Any) -> datetime.date:
 
 
 Text = Annotated[str, _named(_text)]
+Date = Annotated[datetime.date, _named(_date)]
 Positive = Annotated[float, _named(_positive)]
 Factor = Annotated[float, _named(_factor)]
+#: The annexes of the sheet, in its order.
+ANNEXES = (
+    *("pier", "procedure", "truck", "codes", "sensitivity"),
+    *("nomenclature", "provenance", "changes"),
+)
+_MOST_REVISIONS = 8  # what the first page has room for
 EndCondition = Literal["fixed", "pinned", "free"]
 
 
@@ -130,32 +147,68 @@ class StepInputs(SectionInputs):
     height: Annotated[float, _named(_length)]
 
 
-def _steps(name: str, value: Any) -> tuple[StepInputs, ...]:
-    if not isinstance(value, list | tuple) or not all(isinstance(step, dict) for step in value):
-        raise InputError(
-            f"{name} must be a list of heights with the keys of their sections, got {brief(value)}"
-        )
-    steps = []
-    for number, step in enumerate(value, 1):
-        for key in step:
-            known(key, StepInputs.model_fields, "a key of a step")
+class RevisionInputs(BaseModel):
+    """The keys of a line of the table of revisions."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    revision: Text
+    date: Date
+    description: Text = "—"
+    by: Text = "—"
+
+
+_Item = TypeVar("_Item", StepInputs, RevisionInputs)
+
+
+def _items(name: str, value: Any, model: type[_Item], of: str, kind: str) -> tuple[_Item, ...]:
+    """Return a list of mappings as a model each; `of` and `kind` say what they are, in errors."""
+    if not isinstance(value, list | tuple) or not all(isinstance(item, dict) for item in value):
+        raise InputError(f"{name} must be a list of {of}, got {brief(value)}")
+    items = []
+    for number, item in enumerate(value, 1):
+        for key in item:
+            known(key, model.model_fields, f"a key of a {kind}")
         try:
-            steps.append(StepInputs(**step))
+            items.append(model(**item))
         except ValidationError as error:
             raise InputError(f"{name}[{number}].{_one_line(error)}") from None
-    return tuple(steps)
+    return tuple(items)
 
 
-class Inputs(SectionInputs):
-    """The keys of a case file, in SI units; None where a key is not given and has no default."""
+def _steps(name: str, value: Any) -> tuple[StepInputs, ...]:
+    return _items(name, value, StepInputs, "heights with the keys of their sections", "step")
 
+
+def _revisions(name: str, value: Any) -> tuple[RevisionInputs, ...]:
+    keys = ", ".join(RevisionInputs.model_fields)
+    revisions = _items(name, value, RevisionInputs, f"revisions with {keys}", "revision")
+    if len(revisions) > _MOST_REVISIONS:
+        raise InputError(f"{name} must be at most {_MOST_REVISIONS}, got {len(revisions)}")
+    return revisions
+
+
+class SharedInputs(BaseModel):
+    """The keys that the cases of an office may share."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    office: Text = "—"
+    logo: Text | None = None
     project: Text = "—"
-    job_number: Text = "—"
-    element: Text = "—"
     prepared_by: Text = "—"
     checked_by: Text = "—"
+    approved_by: Text = "—"
+    units: Literal["SI", "US"] = "SI"
+
+
+class Inputs(SharedInputs, SectionInputs):
+    """The keys of a case file, in SI units; None where a key is not given and has no default."""
+
+    job_number: Text = "—"
+    element: Text = "—"
     revision: Text = "—"
-    date: Annotated[datetime.date, _named(_date)] = Field(default_factory=datetime.date.today)
+    date: Date = Field(default_factory=datetime.date.today)
     column_height: Positive
     elastic_modulus: Positive | None = None
     concrete_strength: Positive | None = None
@@ -177,13 +230,15 @@ class Inputs(SectionInputs):
     speed: Positive
     impact_height: Annotated[float | Literal["auto"], _named(_impact_height)]
     damping_ratio: Annotated[float, _named(_damping_ratio)] = DAMPING_RATIO
-    units: Literal["SI", "US"] = "SI"
     shear_resistance: Positive | None = None
     moment_resistance: Positive | None = None
     member_forces: Literal["larger", "beam", "static"] = "larger"
     assumed: Annotated[dict[str, str], _named(_texts_by_key)] = {}
     sources: Annotated[dict[str, str], _named(_texts_by_key)] = {}
     notes: Annotated[tuple[str, ...], _named(_texts)] = ()
+    revisions: Annotated[tuple[RevisionInputs, ...], _named(_revisions)] = ()
+    supersedes: Text | None = None
+    annexes: Annotated[tuple[str, ...], _named(_annexes)] = ()
 
 
 KEYS = tuple(Inputs.model_fields)
@@ -210,6 +265,16 @@ def read_inputs(values: Mapping[str, object]) -> Inputs:
         if key not in given:
             raise InputError(f"{key} is listed under assumed or sources, but is not given")
     return inputs
+
+
+def read_shared(values: Mapping[str, object], file: str) -> SharedInputs:
+    """Return the inputs that a file gives to the cases beside it; errors as in `read_inputs`."""
+    for key in values:
+        known(key, SharedInputs.model_fields, f"a key of {file}")
+    try:
+        return SharedInputs(**values)  # type: ignore[arg-type]
+    except ValidationError as error:
+        raise InputError(_one_line(error)) from None
 
 
 def _one_line(error: ValidationError) -> str:

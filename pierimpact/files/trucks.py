@@ -1,7 +1,5 @@
 """Truck files: every parameter with its value, unit, source and status."""
 
-import hashlib
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,6 +7,7 @@ from typing import Any, NamedTuple
 
 from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError, brief, did_you_mean, known, number, one_line, one_of
+from pierimpact.files.toml_table import TomlFile, read_toml
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY, dimension
 from pierimpact.units import parse
@@ -103,22 +102,17 @@ def read_truck_file(name_or_path: str | Path, folder: str | Path = ".") -> Truck
 
 def _read(path: Path) -> TruckFile:
     try:
-        content = path.read_bytes()
-        text = content.decode()
-        table = tomllib.loads(text)
-    except OSError as error:
-        raise InputError(f"truck file {path} cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"truck file {path} is not UTF-8 text") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"truck file {path} is not valid TOML: {error}") from None
+        file = read_toml(path)
+    except InputError as error:
+        raise InputError(f"truck file {path} {error}") from None
     try:
-        return _truck_file(table, path.name, hashlib.sha256(content).hexdigest(), text)
+        return _truck_file(file, path.name)
     except InputError as error:
         raise InputError(f"truck file {path.name}: {error}") from None
 
 
-def _truck_file(table: dict[str, Any], file_name: str, sha256: str, text: str) -> TruckFile:
+def _truck_file(file: TomlFile, file_name: str) -> TruckFile:
+    table = file.table
     name, description, source, status = (
         _text(heading, table.pop(heading, None))
         for heading in ("name", "description", "source", "status")
@@ -148,8 +142,8 @@ def _truck_file(table: dict[str, Any], file_name: str, sha256: str, text: str) -
         status=certainty,
         parameters=parameters,
         file_name=file_name,
-        sha256=sha256,
-        text=text,
+        sha256=file.sha256,
+        text=file.text,
         mass_range=mass_range,
     )
 
