@@ -337,7 +337,9 @@ class CollisionHistory:
         truck = self.truck
         initial = truck.mass * self.collision.speed
         momentum = truck.engine_mass * self.engine_velocity + truck.body_mass * self.body_velocity
-        return float(np.max(np.abs(momentum + self.impulse + self.road_impulse - initial)) / initial)
+        return float(
+            np.max(np.abs(momentum + self.impulse + self.road_impulse - initial)) / initial
+        )
 
     @property
     def _friction_on_pier(self) -> bool:

@@ -121,7 +121,7 @@ def _reactions(collisions: Mapping[str, Mapping[float, Collision]]) -> dict[str,
     mass, stiffness, ratio = np.array([(p.mass, p.stiffness, p.damping_ratio) for p in piers]).T
     speed = [collision.speed for collision in together]
     peaks = peak_reactions(trucks, mass, stiffness, ratio, speed)
-    design = design_reactions(trucks, mass, stiffness, ratio, speed, level="long")
+    design = design_reactions(trucks, mass, stiffness, ratio, speed, level="short")
     results = (peaks.engine, peaks.cargo, design.engine, design.cargo)
     ends = np.cumsum([len(part) for part in collisions.values()])
     return {

@@ -6,6 +6,7 @@ of pandoc turns the notebook's prose and all mathematics into HTML with MathML, 
 
 import base64
 import datetime
+import html
 import importlib.util
 import re
 import string
@@ -178,12 +179,8 @@ class SheetHTMLExporter(_SheetExporter):
                 block["converted"] = re.sub(
                     r'<span\s+class="header-section-number">[^<]*</span>\s*', "", block["converted"]
                 )
-        headings = re.findall(
-            r'<h2 [^>]*id="([^"]+)">\s*<span\s+class="header-section-number">([^<]*)</span>'
-            r"\s*(.*?)</h2>",
-            "\n".join(block["converted"] for block in prose),
-            re.DOTALL,
-        )
+        _letter(sheet["blocks"])
+        headings = [heading for block in sheet["blocks"] for heading in _headings(block)]
         for block in sheet["blocks"]:
             if block["type"] == "Contents":
                 block["headings"] = headings
@@ -193,6 +190,37 @@ class SheetHTMLExporter(_SheetExporter):
         # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
         annotation = re.compile(r"<annotation .*?</annotation>", re.DOTALL)
         return [annotation.sub("", piece) for piece in super()._pandoc(pieces)]
+
+
+def _letter(blocks: list[dict[str, Any]]) -> None:
+    """Number the subheadings of annexes by their letters."""
+    letter, count = "", 0
+
+    def numbered(number: re.Match[str]) -> str:
+        nonlocal count
+        count += 1
+        return f"{number[1]}{letter}.{count}<"
+
+    for block in blocks:
+        if block["type"] == "Annex":
+            letter, count = block["letter"], 0
+        elif block["type"] == "Prose" and letter:
+            block["converted"] = re.sub(
+                r'(<span\s+class="header-section-number">)[^<]*<', numbered, block["converted"]
+            )
+
+
+def _headings(block: dict[str, Any]) -> list[tuple[str, str, str]]:
+    """Return anchor, number and HTML of the headings of a block that the contents list."""
+    if block["type"] == "Annex":
+        number = f"Annex {block['letter']}"
+        return [(f"annex-{block['letter']}", number, html.escape(block["title"]))]
+    return re.findall(
+        r'<h2 [^>]*id="([^"]+)">\s*<span\s+class="header-section-number">([^<]*)</span>'
+        r"\s*(.*?)</h2>",
+        block["converted"] if block["type"] == "Prose" else "",
+        re.DOTALL,
+    )
 
 
 def _title(nb: NotebookNode) -> str:

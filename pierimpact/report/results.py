@@ -59,7 +59,7 @@ class Results(BaseModel):
     @classmethod
     def of(cls, calculation: Calculation) -> Self:
         """Return the results of a calculation."""
-        case, history, design = calculation.case, calculation.history, calculation.design
+        case, history, short = calculation.case, calculation.history, calculation.short
         inputs, cargo = case.inputs, history.cargo_peak
         section = case.column.section
         calculated = {
@@ -81,8 +81,8 @@ class Results(BaseModel):
             "design_reaction": calculation.design_force,
             "governs": calculation.governs,
             "utilisations": calculation.utilisations,
-            "outside": design.outside,
-            "overlapping": design.overlapping,
+            "outside": short.outside,
+            "overlapping": short.overlapping,
         }
         return cls.model_validate(inputs.model_dump() | calculated)
 

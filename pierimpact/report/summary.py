@@ -11,7 +11,7 @@ from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph
 from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table, columns
 from pierimpact.report.results import Results
-from pierimpact.report.sheet.summary import limits_of_the_study
+from pierimpact.report.warnings import limits_of_the_study
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 

@@ -96,11 +96,11 @@ class Annex(Block):
 
 @dataclass(frozen=True, kw_only=True)
 class Beside(Block):
-    """Two blocks side by side, where the page is wide enough."""
+    """Blocks in two columns, where the page is wide enough."""
 
-    left: Block
-    right: Block
-    share: float  #: of the width that the left one takes [-]
+    left: Sequence[Block]
+    right: Sequence[Block]
+    share: float  #: of the width that the left ones take [-]
 
 
 @dataclass(frozen=True)

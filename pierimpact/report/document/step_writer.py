@@ -10,6 +10,7 @@ from pierimpact.symbols import SYMBOLS
 from pierimpact.units import CONSISTENT, Printed, printed
 
 _LONG = 75  # characters on a line
+_LINE = 58  # characters of formula, values and result where they stand on one line
 _IN_SYMBOLS = {name: symbol.latex for name, symbol in SYMBOLS.items()}
 
 
@@ -70,6 +71,9 @@ class StepWriter:
             lines = [*values, f"{last} = {result}"] if fits else [*values, last, result]
             if re.sub(r"\\,| ", "", formula) != symbol.latex.replace(" ", ""):
                 lines = [*_broken(formula), *lines]
+            whole = " = ".join(lines)
+            if not any(line.startswith(CONTINUED) for line in lines) and tex_length(whole) < _LINE:
+                lines = [whole]
         because = " and ".join(f"${c.latex(_IN_SYMBOLS)}$" for c in step.conditions)
         remarks = [step.remark, because and f"as {because}"]
         return Equation(

@@ -43,17 +43,20 @@ class Sheet:
         self.sensitivity = Variations(self.calculation)
         self.derivation = Derivation(self.calculation)
         self.procedure = DesignProcedure(self.calculation)
+        annexes = {"pier": self.derivation, "procedure": self.procedure}
         sections = (
             *(self.inputs, self.pier, self.model, self.spectrum_method, self.member_forces),
-            *(self.derivation, self.procedure),
+            *(annex for name, annex in annexes.items() if name in case.inputs.annexes),
         )
         self.closing = Closing(self.calculation, sections, case_file, case_sha256)
 
     def annex(self, name: str, title: str) -> Annex:
         """Return the beginning of an annex, one of `ANNEXES`, which the case asks for or not."""
         assert name in ANNEXES
-        changes = name == "changes" and self.case.superseded is not None
-        return Annex(title=title, printed=changes or name in self.case.inputs.annexes)
+        asked = name in self.case.inputs.annexes
+        if name == "changes":
+            asked = self.case.superseded is not None
+        return Annex(title=title, printed=asked)
 
     def results(self) -> Results:
         """Return the results that a summary of several cases is made from."""

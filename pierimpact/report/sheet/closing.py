@@ -9,7 +9,7 @@ import numpy as np
 import yaml
 
 import pierimpact
-from pierimpact.report.document.blocks import Block, Listing, Nomenclature, Notes, Paragraph
+from pierimpact.report.document.blocks import Block, Listing, Nomenclature, Notes
 from pierimpact.report.document.markup import Code, Inline, Piece, Ref, Tex, inline
 from pierimpact.report.document.numbered import Table, columns, wide
 from pierimpact.report.sheet.section import Section

@@ -15,13 +15,14 @@ from pierimpact.units import printed
 
 
 class Derivation(PierSection):
-    """How the values of the equivalent pier come about; columns that are not uniform have tables."""
+    """How the values of a uniform column come about; any other has but its section here."""
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the derivation, by name."""
         blocks = [block for block in (self.section(), *self._unit_force) if block]
         steps = [equation.label for block in blocks for equation in block.equations]
-        return {label.removeprefix("eq-"): label for label in steps}
+        # A coefficient that is given stands first where it is used.
+        return {"kappa": "eq-GA"} | {label.removeprefix("eq-"): label for label in steps}
 
     def section(self) -> Steps | None:
         """Return what the shear coefficient of the section rests on; None where it is given."""

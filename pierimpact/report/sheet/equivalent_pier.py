@@ -1,8 +1,8 @@
 """The equivalent pier: section, unit force, stiffness, shape function, mass and frequency.
 
-What the unit force does to the column is a table for any column, from `pier.static`. A checker
-follows it: equilibrium, the deflection as the work of all parts and springs, and the equivalent mass
-as the sum over the parts. The closed formulas of uniform columns are in the annex of `derivation`.
+What the unit force does to any column is a table, from `pier.static`. A checker follows it:
+equilibrium, the deflection as the work of all parts and springs, and the equivalent mass as the
+sum over the parts. The closed formulas of uniform columns are an annex, in `derivation`.
 """
 
 from collections.abc import Mapping
@@ -14,9 +14,9 @@ from pierimpact.files.case import concrete_modulus
 from pierimpact.pier.arrangement import Part
 from pierimpact.pier.equivalent import vibration
 from pierimpact.pier.static import Piece
-from pierimpact.plots.shape import draw_shape
+from pierimpact.plots.stub import draw_shape
 from pierimpact.report.document.blocks import Beside, Block, Paragraph
-from pierimpact.report.document.markup import Inline, Ref, Tex, in_tex, inline
+from pierimpact.report.document.markup import Inline, Ref, Tex, in_tex
 from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
 from pierimpact.report.document.step_writer import StepWriter
 from pierimpact.report.sheet.section import Section
@@ -27,7 +27,13 @@ _GIVEN = (
     *("D", "b", "h", "t", "Df", "ns", "Av", "alpha_E", "alpha_rho"),
     *("fc", "E", "nu", "rho", "psi", "EIe", "H", "z", "y", "zeta"),
 )
-_UNIT_FORCE = ("Rb", "Rt", "Mb", "Mn", "Mt")
+_UNIT_FORCE = {
+    "Rb": "Force at the base",
+    "Rt": "Force at the top",
+    "Mb": "Moment at the base",
+    "Mn": "Moment at the impact",
+    "Mt": "Moment at the top",
+}
 
 
 class PierSection(Section):
@@ -60,7 +66,8 @@ class EquivalentPierSteps(PierSection):
         return (
             {label.removeprefix("eq-"): label for label in steps}
             | dict.fromkeys(_UNIT_FORCE, "tab-unit-force")
-            | {"kappa": "tab-parts", "xn": "tab-work", "height": "tab-shape", "phi": "tab-shape"}
+            | {"xn": "tab-work", "height": "tab-shape", "phi": "tab-shape"}
+            | ({} if self.case.column.uniform else {"kappa": "tab-parts"})
         )
 
     def impact_height(self) -> Block:
@@ -152,13 +159,10 @@ class EquivalentPierSteps(PierSection):
         bottom, top = (self.shown(z, "length", given=True) for z in (part.bottom, part.top))
         return f"{bottom.number} to {top}"
 
-    def static(self) -> Block:
-        """Return support forces, moments and works under a unit force at the impact."""
-        return Beside(left=self.unit_forces(), right=self.stiffness(), share=0.42)
-
-    def shape(self) -> Block:
-        """Return the shape function as a figure, and its integrals part by part."""
-        return Beside(left=self.shape_figure(), right=self.shape_table(), share=0.36)
+    def under_unit_force(self) -> Block:
+        """Return the shape function as a figure, beside what the unit force does."""
+        tables = [self.unit_forces(), self.stiffness(), self.shape_table()]
+        return Beside(left=[self.shape_figure()], right=tables, share=0.36)
 
     def shape_figure(self) -> Block:
         """Return the shape function over the height of the column."""
@@ -180,9 +184,10 @@ class EquivalentPierSteps(PierSection):
         """Return how the equivalent mass compares with that of the column, in words."""
         column, mass = self.case.column, self.calculation.pier.mass
         share = mass / column.mass
-        words = f"The equivalent mass is {rounded(share, 3)} times the {self.shown(column.mass, 'mass')} of the column"
+        words = f"The equivalent mass is {rounded(share, 3)} times that of the column, "
+        words += str(self.shown(column.mass, "mass"))
         if column.top_mass:
-            words += f" without the {self.shown(column.top_mass, 'mass', given=True)} at its top"
+            words += f", without the {self.shown(column.top_mass, 'mass', given=True)} at its top"
         if share > 1.0:
             words += (
                 ": most of what moves is above the impact and moves farther than it, so that the "
@@ -190,8 +195,13 @@ class EquivalentPierSteps(PierSection):
             )
         return Paragraph(f"{words}.")
 
-    def parts(self) -> Block:
-        """Return section properties, rigidities and mass per length of each part."""
+    def parts(self) -> Block | None:
+        """Return section properties, rigidities and mass per length of each part.
+
+        None where the column is of one.
+        """
+        if self.case.column.uniform:
+            return None
         column, names = self.case.column, ("A", "I", "kappa", "EI", "GA", "mbar")
 
         def values(part: Part) -> dict[str, float]:
@@ -227,9 +237,8 @@ class EquivalentPierSteps(PierSection):
         return Table(
             label="tab-unit-force",
             caption=(
-                "Support forces and moments under a unit force at the impact: exact for uniform "
-                "parts, from the conditions at the supports and at the joints of the parts "
-                "(derived here). As a check, ",
+                "Support forces and moments under a unit force at the impact (derived here). As a "
+                "check, ",
                 Tex(r"R_\mathrm{b} + R_\mathrm{t} = 1"),
                 " and ",
                 Tex(
@@ -241,11 +250,11 @@ class EquivalentPierSteps(PierSection):
             columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
             rows=[
                 [
-                    SYMBOLS[name].heading,
+                    words,
                     Tex(SYMBOLS[name].latex),
                     *self.shown(self._values[name], SYMBOLS[name].quantity),
                 ]
-                for name in _UNIT_FORCE
+                for name, words in _UNIT_FORCE.items()
             ],
         )
 

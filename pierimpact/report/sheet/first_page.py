@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from pierimpact.design.codes import aashto_lrfd
-from pierimpact.plots.situation import draw_situation
+from pierimpact.plots.stub import draw_situation
 from pierimpact.report.document.blocks import (
     Block,
     Contents,
@@ -228,7 +228,7 @@ class FirstPage(Section):
         if more > 0:
             first = [
                 *first[:_FIRST_WARNINGS],
-                f"{more} more {'stands' if more == 1 else 'stand'} with the limits, on the last page.",
+                f"{more} more {'stands' if more == 1 else 'stand'} with the limits, at the end.",
             ]
         return Notice(heading="Before you rely on this", body=first)
 

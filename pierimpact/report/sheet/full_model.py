@@ -1,9 +1,9 @@
 """The collision by the full model: what it solves, its history and peaks, and what balances."""
 
-from pierimpact.collision.history import Peak
 import numpy as np
 
-from pierimpact.plots.history import draw_history
+from pierimpact.collision.history import Peak
+from pierimpact.plots.stub import draw_history
 from pierimpact.report.document.blocks import Beside, Block
 from pierimpact.report.document.markup import Inline, Tex, in_tex
 from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
@@ -142,9 +142,7 @@ class FullModel(Section):
         ]
         strain = 0.5 * peak.reaction**2 / result.pier.stiffness
         shares.insert(1, ("Deflection of the pier", strain, float(energy.pier_elastic[-1])))
-        shares.append(
-            ("Sum", sum(share[1] for share in shares), sum(share[2] for share in shares))
-        )
+        shares.append(("Sum", sum(share[1] for share in shares), sum(share[2] for share in shares)))
         whole = self.shown(history.collision.energy, "energy")
         return Table(
             label="tab-energy",
@@ -194,7 +192,7 @@ class FullModel(Section):
 
     def balances(self) -> Block:
         """Return energy and momentum, the check by hand of the full model."""
-        return Beside(left=self.energy(), right=self.momentum(), share=0.56)
+        return Beside(left=[self.energy()], right=[self.momentum()], share=0.56)
 
     def averages(self) -> Block:
         """Return the largest contact force and its largest moving averages."""

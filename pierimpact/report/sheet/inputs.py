@@ -4,7 +4,7 @@ import re
 from typing import Any
 
 from pierimpact.files.inputs import PHYSICAL_KEYS, SectionInputs
-from pierimpact.plots.crush import draw_crush_curves
+from pierimpact.plots.stub import draw_crush_curves
 from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.markup import Inline, Tex
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
@@ -155,7 +155,7 @@ class Inputs(Section):
             *self._keys(),
             *(key for step in self.case.inputs.steps for key in _keys_of(step)),
         ]
-        tables = dict.fromkeys(truck, "tab-truck") | dict.fromkeys(own, "tab-inputs")
+        tables = dict.fromkeys(truck, "tab-springs") | dict.fromkeys(own, "tab-inputs")
         return {NAMES[key]: table for key, table in tables.items()}
 
 

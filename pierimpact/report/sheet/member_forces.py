@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from pierimpact.plots.envelopes import draw_envelopes
+from pierimpact.plots.stub import draw_envelopes
 from pierimpact.report.calculation import Demand
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Inline, Tex
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal
-from pierimpact.report.sheet.section import Section
 from pierimpact.report.sheet.first_page import DEMANDS
+from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
 
@@ -49,7 +49,10 @@ class MemberForces(Section):
         several = len(result.impacts) > 1
         for impact in result.impacts if several else ():
             height = self.shown(impact.struck.impact_height, "length", given=True)
-            rows += [self._largest(name, impact.demands[name], f", struck at {height}") for name in DEMANDS]
+            rows += [
+                self._largest(name, impact.demands[name], f", struck at {height}")
+                for name in DEMANDS
+            ]
         rows += [
             self._largest(name, result.demands[name], " of both" if several else "")
             for name in DEMANDS
@@ -137,7 +140,11 @@ class MemberForces(Section):
             label="fig-members",
             caption="Shear and moment over the height: dashed, under the design reaction and, "
             "reversed, under the lowest one as static forces"
-            + ("" if inputs.member_forces == "static" else "; filled, the beam’s envelopes of both signs")
+            + (
+                ""
+                if inputs.member_forces == "static"
+                else "; filled, the beam’s envelopes of both signs"
+            )
             + ("; vertical, the resistances" if given else "")
             + ". Moment positive where the far face is in tension.",
             alt=f"Envelopes of shear and moment. The largest shear is {largest['shear']}, the "

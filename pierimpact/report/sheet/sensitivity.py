@@ -3,7 +3,7 @@
 from pierimpact.design.sensitivity import MASS_CHANGE, SPEED_CHANGE
 from pierimpact.plots.band import draw_band
 from pierimpact.plots.figures import draw_sensitivity
-from pierimpact.plots.tornado import draw_tornado
+from pierimpact.plots.stub import draw_tornado
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal
@@ -18,7 +18,7 @@ class Variations(Section):
     def tornado(self) -> Block:
         """Return what moves the governing reaction most."""
         result = self.calculation
-        step = self.shown(result.sensitivity.speed_change, "speed", given=True)
+        step = self.shown(SPEED_CHANGE, "speed", given=True)
         spread = " and the truck’s parameters within their spread" if result.band.spread else ""
         return Figure(
             label="fig-tornado",

@@ -1,8 +1,10 @@
 """The spectrum method: the design procedure at its short level, the check by hand."""
 
+from itertools import chain
+
 from pierimpact.design.procedure import short
 from pierimpact.design.reaction import DesignReaction
-from pierimpact.plots.spectrum import draw_spectrum
+from pierimpact.plots.stub import draw_spectrum
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Tex, inline
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
@@ -61,7 +63,7 @@ class SpectrumMethod(Section):
             f"and 1 {unit_of(mass, self.system)} is {printed(size, 'share', 'SI', given=True)} "
             f"{self.unit('mass')}.",
             columns=columns(*["Symbol", decimal("Value"), "Unit"] * _ABREAST),
-            rows=[sum(cells[line::lines], []) for line in range(lines)],
+            rows=[list(chain(*cells[line::lines])) for line in range(lines)],
         )
 
     def steps(self) -> Block:
