@@ -61,6 +61,12 @@ _NUMBER = re.compile(
 _FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?[1-9])?"
 _EXPRESSION = re.compile(rf"{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
 _MARKS = str.maketrans({"·": "*", "²": "^2", "³": "^3", "⁴": "^4", "⁶": "^6"})
+# Feet and inches as on drawings: 24'-6 1/2", 24 ft 6.5 in, 6', 36", 3 1/2 in.
+_MIXED = r"(\d+(?:\.\d*)?|\.\d+|(?:\d+[\s-]+)?\d+/\d+)"
+_FEET_AND_INCHES = re.compile(
+    rf"\s*(-?)\s*(?:{_MIXED}\s*(?:ft\.?|'))?\s*-?\s*(?:{_MIXED}\s*(?:inch|in\.?|\"))?\s*", re.ASCII
+)
+_PRIMES = str.maketrans("′’″”", "''\"\"")
 
 
 @cache
@@ -92,14 +98,14 @@ def _unit(expression: str) -> tuple[float, dict[str, float]] | None:
 
 
 def parse(name: str, value: object, dimension: str) -> float:
-    """Return a quantity such as "36 in" or "4 MN*m" in SI units.
+    """Return a quantity such as "36 in", "4 MN*m" or "24 ft 6 in" in SI units.
 
     Parameters
     ----------
     name : str
         What the value is for, to be named in errors.
     value : object
-        The text: a number and a unit.
+        The text: a number and a unit; a length may also be in feet and inches, with fractions.
     dimension : str
         What it must be, one of `DIMENSIONS`.
 
@@ -113,6 +119,10 @@ def parse(name: str, value: object, dimension: str) -> float:
     shown = brief(value)
     if isinstance(value, int | float) and not isinstance(value, bool):
         raise InputError(f"{name} must have a unit ({units}), got {shown}")
+    if dimension == "length" and isinstance(value, str):
+        length = _feet_and_inches(name, value)
+        if length is not None:
+            return length
     match = _NUMBER.fullmatch(value) if isinstance(value, str) else None
     if match is None:
         raise InputError(f"{name} must be {words}, a number with a unit ({units}), got {shown}")
@@ -130,10 +140,40 @@ def parse(name: str, value: object, dimension: str) -> float:
         ]
         which = f", which is {nouns[0]}" if nouns else ""
         raise InputError(f"{name} must be {words} ({units}), got {shown}{which}")
-    result = magnitude * size
+    return _finite(name, magnitude * size, value)
+
+
+def _finite(name: str, result: float, value: object) -> float:
     if not math.isfinite(result):
-        raise InputError(f"{name} must be finite, got {shown}")
+        raise InputError(f"{name} must be finite, got {brief(value)}")
     return result
+
+
+def _feet_and_inches(name: str, text: str) -> float | None:
+    """Return a length in feet and inches [m]; None where it is a number with a unit, or neither."""
+    plain = text.translate(_PRIMES)
+    match, marked = _FEET_AND_INCHES.fullmatch(plain), "'" in plain or '"' in plain
+    sign, feet, inches = match.groups("") if match else ("", "", "")
+    if not (marked or (feet and inches) or (match and re.search(r"/|[a-z]\.", plain))):
+        return None
+    whole, rest = _mixed(feet or "0"), _mixed(inches or "0")
+    one = not (feet and inches)
+    if not match or sign or math.isnan(whole + rest) or not (one or (feet.isdigit() and rest < 12)):
+        raise InputError(
+            f"{name} must have whole feet and inches below 12, as in 24 ft 6 in or 24'-6 1/2\", "
+            f"got {brief(text)}"
+        )
+    return _finite(name, (12.0 * whole + rest) * unit_size("section length", "US"), text)
+
+
+def _mixed(text: str) -> float:
+    """Return a number such as "6.5" or "6 1/2"; not a number where its fraction is not below 1."""
+    *whole, last = re.split(r"[\s-]+", text)
+    above, slash, below = last.partition("/")
+    if not slash:
+        return float(last)
+    share = float(above) / float(below) if float(above) < float(below) else math.nan
+    return sum(map(float, whole)) + share
 
 
 @cache

@@ -49,6 +49,97 @@ def test_parse(text, dimension, expected):
     assert parse("value", text, dimension) == pytest.approx(expected, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("text", "inches"),
+    [
+        ("24 ft 6 in", 294),
+        ("24ft6in", 294),
+        ("24 ft. 6 in.", 294),
+        ("24'-6\"", 294),
+        ("24' - 6\"", 294),
+        ("24' 6\"", 294),
+        ("24'6\"", 294),
+        ("24′-6″", 294),
+        ("24’-6”", 294),
+        ("24'-6 1/2\"", 294.5),
+        ("24'-6-1/2\"", 294.5),
+        ("24' 1/2\"", 288.5),
+        ("24 ft 6.5 in", 294.5),
+        ("24 ft 0 in", 288),
+        ("0'-11 15/16\"", 11.9375),
+        ("6'", 72),
+        ("6.5'", 78),
+        ("6 1/2'", 78),
+        ('36"', 36),
+        ("36 in.", 36),
+        ("3 1/2 in", 3.5),
+        ("3-1/2 in", 3.5),
+        ("1/2 in", 0.5),
+        (".5 in", 0.5),
+        (" 24 ft  6 in ", 294),
+        ("24 ft 6 inch", 294),
+    ],
+)
+def test_feet_and_inches(text, inches):
+    assert parse("value", text, "length") == pytest.approx(inches * INCH, rel=1e-15)
+
+
+SIXTEENTHS = [f"{n // g}/{16 // g}" for n in range(1, 16) for g in [math.gcd(n, 16)]]
+
+
+@given(
+    st.integers(0, 10_000),
+    st.integers(0, 11),
+    st.none() | st.sampled_from(SIXTEENTHS),
+    st.sampled_from([("'", '"'), ("′", "″"), (" ft", " in"), ("ft", "in"), ("’", "”")]),
+    st.sampled_from(["-", " ", " - ", " -"]),
+    st.sampled_from([" ", "-"]),
+)
+def test_feet_and_inches_as_written_parse_back(feet, inches, fraction, marks, between, dash):
+    text = f"{feet}{marks[0]}{between}{inches}" + (dash + fraction if fraction else "") + marks[1]
+    above, _, below = (fraction or "0/1").partition("/")
+    expected = (12 * feet + inches + int(above) / int(below)) * INCH
+    assert parse("value", text, "length") == pytest.approx(expected, rel=1e-15)
+
+
+@given(st.floats(0.0, 1e6), st.floats(0.0, 11.9), st.integers(0, 1000))
+def test_decimal_inches_parse_back(number, inches, feet):
+    assert parse("value", f'{number:.6f}"', "length") == pytest.approx(number * INCH, abs=1e-6)
+    found = parse("value", f"{feet} ft {inches:.9f} in", "length")
+    assert found == pytest.approx((12 * feet + inches) * INCH, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("24 ft 12 in", "24 ft 13 in", "24'-12\"", "24'-11 16/16\"", "24.5 ft 6 in"),
+        *("-24'-6\"", "-24 ft 6 in", "-6'", '-36"', "-3 1/2 in", "24'--6\"", "24' -6 1/2' "),
+        *("24 1/2' 6\"", "3 2/1 in", "3 1/0 in", "0/0 in", "6\"-24'", "24'6", "24'6 ft"),
+        *('"', "6'6'", '6"6"', "'", "24' 6 m", "24 m 6\"", "it's"),
+    ],
+)  # fmt: skip
+def test_nonsense_in_feet_and_inches(text):
+    rule = "value must have whole feet and inches below 12, as in 24 ft 6 in or 24'-6 1/2\", got "
+    with pytest.raises(InputError, match=re.escape(rule)) as caught:
+        parse("value", text, "length")
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "text", ["24 ft 6 m", "24 m 6 in", "24 ft 6", "6 in 24 ft", "1/2 m", "3.5 1/2 in"]
+)
+def test_other_mixtures_of_units(text):
+    with pytest.raises(InputError, match="value must be a length") as caught:
+        parse("value", text, "length")
+    assert "\n" not in str(caught.value)
+
+
+def test_feet_and_inches_are_a_length():
+    for text in ("24 ft 6 in", "24'-6\""):
+        with pytest.raises(InputError, match="must be a mass"):
+            parse("value", text, "mass")
+
+
 # Every unit in SI units, by what it measures.
 SIZES = {
     "length": {
@@ -138,7 +229,11 @@ def test_what_does_not_parse(value, dimension, message):
     assert "\n" not in str(caught.value)
 
 
-@given(st.text() | st.from_regex(r"[0-9.e+-]{1,5} ?[a-zA-Z*/^0-9 ()-]{1,12}", fullmatch=True))
+@given(
+    st.text()
+    | st.from_regex(r"[0-9.e+-]{1,5} ?[a-zA-Z*/^0-9 ()-]{1,12}", fullmatch=True)
+    | st.from_regex(r"[0-9./ ft'\"in-]{1,16}", fullmatch=True)
+)
 def test_any_text_is_a_number_or_a_line(text):
     for dimension in DIMENSIONS:
         message = "value is fine"
