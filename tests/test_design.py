@@ -23,7 +23,6 @@ from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.design import domain, study
 from pierimpact.design.procedure import LEVELS, design_values
-from pierimpact.design.reaction import nominal_impact_height
 from pierimpact.design.reduction import exact_amplification
 
 TRUCK = load_truck("single-unit-8t")
@@ -308,15 +307,6 @@ def test_levels_have_their_old_names_as_well(old, level):
         == design_reactions(TRUCK, 8e3, 284e6, 0.05, SPEED, level).engine
     )
 
-
-def test_nominal_height():
-    assert nominal_impact_height(2e6, None) == 1.05
-    assert nominal_impact_height(2e6, 0.999e6) == 1.05  # less than half
-    assert nominal_impact_height(2e6, 1e6) == 1.35
-    assert nominal_impact_height(2e6, 5e6) == 1.35
-    for speed, height in ((SPEED, 1.35), (5.0, 1.05)):
-        design = design_reaction(TRUCK, PIER, speed)
-        assert nominal_impact_height(design.engine, design.cargo) == height
 
 
 @pytest.mark.parametrize(

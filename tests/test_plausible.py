@@ -7,7 +7,7 @@ from pierimpact.files.case import case_from
 from pierimpact.files.inputs import PHYSICAL_KEYS
 from pierimpact.files.plausible import USUAL, unusual
 from pierimpact.report.calculation import calculate
-from pierimpact.report.sheet.summary import limitations
+from pierimpact.report.warnings import warnings_of
 
 
 def test_an_ordinary_case_has_nothing_unusual():
@@ -38,7 +38,7 @@ def test_an_unusual_value_is_named_on_page_one(change, key, words):
     steel = {"concrete_strength": None, "elastic_modulus": "25 GPa", "member_forces": "static"}
     case = case_from(US_CASE | steel | change)
     assert [found.key for found in unusual(case.inputs)] == [key]
-    assert any(str(line).startswith(words) for line in limitations(calculate(case)))
+    assert any(str(line).startswith(words) for line in warnings_of(calculate(case)))
 
 
 def test_ranges_are_of_physical_keys():
@@ -67,7 +67,7 @@ def test_ranges_are_of_physical_keys():
 )
 def test_a_mass_beyond_the_trucks_range_is_named_on_page_one(change, words):
     case = case_from(US_CASE | {"member_forces": "static"} | change)
-    found = [str(line) for line in limitations(calculate(case)) if "another truck" in str(line)]
+    found = [str(line) for line in warnings_of(calculate(case)) if "another truck" in str(line)]
     assert len(found) == bool(words)
     assert not words or found[0].startswith(words)
     assert not words or "The range is assumed: judgement of this project" in found[0]

@@ -28,7 +28,7 @@ from pierimpact.pier.static_forces import (
 )
 from pierimpact.plots.static_forces import map_figure
 from pierimpact.report.calculation import calculate
-from pierimpact.report.sheet.summary import limitations
+from pierimpact.report.warnings import warnings_of
 from pierimpact.resources import shipped
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.teaching.tables import static_forces as table_of_rules
@@ -325,18 +325,18 @@ CANTILEVER = {
 def test_the_sheet_warns_of_a_tall_cantilever(changes, words):
     calculation = calculate(case_from(CANTILEVER | changes))
     expected = calculation.static_forces.sentence
-    given = [sentence for sentence in limitations(calculation) if "static force" in sentence]
+    given = [sentence for sentence in warnings_of(calculation) if "static force" in sentence]
     assert given == ([expected] if words else [])
     assert words is None or words in expected
     # By the beam there is nothing to warn of.
     calculation = calculate(case_from(CANTILEVER | changes | {"member_forces": "larger"}))
-    assert expected not in limitations(calculation)
+    assert expected not in warnings_of(calculation)
 
 
 def test_the_sheet_of_the_example_does_not_warn():
     calculation = calculate(read_case_file(shipped("notebooks") / "tti-column.yaml").case)
     assert calculation.static_forces.hold
-    assert not [words for words in limitations(calculation) if "static force" in words]
+    assert not [words for words in warnings_of(calculation) if "static force" in words]
 
 
 # Map and table.

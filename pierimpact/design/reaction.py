@@ -15,9 +15,6 @@ from pierimpact.handcalc import Calculation, Step
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
 
-#: A cargo peak below this share of the engine's counts as much smaller. The source paper gives
-#: no figure; this one is this project's.
-MUCH_SMALLER = 0.5
 #: Nominal impact heights of the source paper without and with a cargo spike that counts [m].
 LOW_IMPACT_HEIGHT, HIGH_IMPACT_HEIGHT = 1.05, 1.35
 
@@ -121,17 +118,6 @@ class DesignReactions:
     def reaction(self) -> NDArray[np.float64]:
         """Governing reaction: the larger of the two [N]."""
         return np.fmax(self.engine, self.cargo)
-
-
-def nominal_impact_height(engine: float, cargo: float | None) -> float:
-    """Nominal impact height of the source paper's rule [m].
-
-    1.05 m where there is no cargo peak or a much smaller one, else 1.35 m. For simplicity the
-    paper itself uses 1.20 m throughout.
-    """
-    if cargo is None or cargo < MUCH_SMALLER * engine:
-        return LOW_IMPACT_HEIGHT
-    return HIGH_IMPACT_HEIGHT
 
 
 def design_reaction(
