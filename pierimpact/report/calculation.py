@@ -16,7 +16,7 @@ from pierimpact.design.reaction import (
     design_reaction,
     nominal_impact_height,
 )
-from pierimpact.design.sensitivity import Sensitivity, sensitivity
+from pierimpact.design.sensitivity import SPEED_CHANGES, Sensitivity, sensitivity
 from pierimpact.design.static_forces import StaticForcesInCollision
 from pierimpact.files.case import Case
 from pierimpact.pier.column import StruckColumn
@@ -124,6 +124,7 @@ class Calculation:
             self.pier,
             self.struck.impact_height,
             self.case.inputs.speed,
+            SPEED_CHANGES[self.case.inputs.units],
         )
 
     @cached_property
@@ -191,8 +192,8 @@ class Calculation:
     @cached_property
     def code_effects(self) -> list[CodeEffect]:
         """The forces of codes along the travel, each on this column."""
-        column, effects = self.case.column, []
-        for code in code_forces(self.case.inputs.speed, self.case.truck.mass):
+        column, effects, inputs = self.case.column, [], self.case.inputs
+        for code in code_forces(inputs.speed, self.case.truck.mass, inputs.units):
             height = code.height.value if code.height else self.struck.impact_height
             try:
                 forces = column.struck_at(height).member_forces(code.along.value)

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT, MUCH_SMALLER
-from pierimpact.files.case import concrete_modulus
+from pierimpact.files.case import CONCRETE_FACTORS
 from pierimpact.pier.arrangement import SUPPORTS
 from pierimpact.pier.equivalent import equivalent_mass, vibration
 from pierimpact.pier.sections import FreeSection
@@ -19,7 +19,7 @@ from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, 
 from pierimpact.report.document.step_writer import StepWriter
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
-from pierimpact.units import printed, rounded, unit_size
+from pierimpact.units import Printed, printed, rounded, unit_size
 
 _GIVEN = (
     *("D", "b", "h", "t", "Df", "ns", "Av", "alpha_E", "alpha_rho"),
@@ -39,14 +39,8 @@ class EquivalentPierSteps(Section):
 
     def impact_height(self) -> Block:
         """Return which nominal impact height is used, and why."""
-        low, high, used = (
-            str(self.shown(height, "length", given=True))
-            for height in (
-                LOW_IMPACT_HEIGHT,
-                HIGH_IMPACT_HEIGHT,
-                self.calculation.struck.impact_height,
-            )
-        )
+        low, high = (self.stated(z, "length") for z in (LOW_IMPACT_HEIGHT, HIGH_IMPACT_HEIGHT))
+        used = self.stated(self.calculation.struck.impact_height, "length", 5)  # all rests on it
         symbol, trial = Tex(SYMBOLS["z"].latex), self.calculation.trial
         if trial is None:
             return Paragraph(
@@ -90,7 +84,7 @@ class EquivalentPierSteps(Section):
             for support in column.supports
         )
         height = self.shown(column.height, "length", given=True)
-        impact = self.shown(self.calculation.struck.impact_height, "length", given=True)
+        impact = self.stated(self.calculation.struck.impact_height, "length")
         return Figure(
             label="fig-elevation",
             caption="The column in elevation, to scale, and where it is struck.",
@@ -157,27 +151,24 @@ class EquivalentPierSteps(Section):
         )
 
     def _concrete_modulus(self) -> Equation:
-        """Return the modulus by the formula of ACI 318, its factor in the units of the sheet."""
-        modulus, strength = (unit_size(kind, self.system) for kind in ("modulus", "strength"))
-        factor = f"{concrete_modulus(strength) / modulus:.6g}"
-        unit, one = self.unit("modulus"), rf"(1\ \text{{{self.unit('strength')}}})"
-        writer = self._writer()
-        in_mpa = "" if self.system == "SI" else " (4700 with both in MPa)"
+        """Return the modulus by the formula of ACI 318, in the form for the units of the sheet."""
+        unit = self.unit("root strength")
+        factor = in_tex(Printed(rounded(CONCRETE_FACTORS[self.system], 5), unit))
+        strength = self.shown(self._values["fc"], "root strength", given=True)
 
         def formula(value: str, times: str) -> str:
-            return rf"{factor}\ \text{{{unit}}} {times} \sqrt{{{value} / {one}}}"
+            return rf"{factor} {times} \sqrt{{{value} / (1\ \text{{{unit}}})}}"
 
-        values = formula(in_tex(writer.shown("fc")), r"\times")
+        values = formula(in_tex(strength), r"\times")
         return Equation(
             label="eq-E",
             name="Elastic modulus of the concrete",
             symbol="E",
             lines=[
                 formula(SYMBOLS["fc"].latex, r"\,"),
-                f"{values} = {in_tex(writer.shown('E'))}",
+                f"{values} = {in_tex(self._writer().shown('E'))}",
             ],
-            source=f"formula of ACI 318{in_mpa}, from memory; "
-            "unverified: check against the standard",
+            source="formula of ACI 318, from memory; unverified: check against the standard",
         )
 
     def unit_forces(self) -> Block:

@@ -18,7 +18,7 @@ from pierimpact.report.document.blocks import (
 )
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, SYMBOLS
-from pierimpact.units import Printed, printed, rounded, unit_size
+from pierimpact.units import Printed, printed, rounded, stated, unit_size
 from pierimpact.vehicle.truck import another_truck
 
 #: Window of the average that the force of AASHTO LRFD was taken from, as read in NCHRP Report 892
@@ -57,7 +57,7 @@ class Summary(Section):
         """Return the results in large type."""
         result = self.calculation
         design, peak, pier = result.design, result.governing_peak, result.pier
-        height = self.shown(result.struck.impact_height, "length", given=True)
+        height = self.stated(result.struck.impact_height, "length")
         parts = f"engine {self.shown(design.engine, 'force')}"
         if design.cargo is not None:
             parts += f", cargo {self.shown(design.cargo, 'force')}"
@@ -184,19 +184,11 @@ def limitations(calculation: Calculation) -> Iterator[str]:
             )
     if case.column.top_mass and math.isinf(case.column.supports[1].stiffness):
         yield "The mass at the top has no effect: the top of this column does not move sideways."
-    for key, *values in unusual(case.inputs):
-        _, quantity, meaning, _ = BY_KEY[key]
-        value, unit = printed(values[0], quantity, case.inputs.units, given=True)
-        size = unit_size(quantity, case.inputs.units)
-        least, most = (rounded(end / size, 2) for end in values[1:])
-        yield (
-            f"Unusual: {meaning} {value} {unit}".rstrip()
-            + f", where {least} to {most} is usual. Check the value and its unit."
-        )
+    yield from (found.sentence(case.inputs.units) for found in unusual(case.inputs))
     mass_range = case.truck_file.mass_range
     if mass_range is not None and not case.truck.in_mass_range:
         masses = (
-            str(printed(value, "mass", case.inputs.units, given=True))
+            stated(value, "mass", case.inputs.units)
             for value in (case.truck.mass, mass_range.low, mass_range.high)
         )
         yield (
@@ -238,8 +230,10 @@ def limits_of_the_study(outside: Sequence[Outside], overlapping: bool, system: s
     clauses = []
     for name, *values in outside:
         _, quantity, meaning, _ = SYMBOLS[name]
-        shown, least, most = (printed(value, quantity, system, given=True) for value in values)
-        clauses.append(f"{meaning} {shown} outside the studied {least.number} to {most}")
+        shown = printed(values[0], quantity, system, given=True)
+        least, most = (rounded(end / unit_size(quantity, system), 3) for end in values[1:])
+        studied = Printed(f"{least} to {most}", shown.unit)
+        clauses.append(f"{meaning} {shown} outside the studied {studied}")
     if overlapping:
         clauses.append("the cargo meets the pier before the engine has separated")
     return clauses
