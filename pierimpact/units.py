@@ -207,6 +207,7 @@ QUANTITIES = {
     "shear integral": Quantity(("m^6", "m⁶"), ("in^6", "in⁶"), 5),
     "modulus": Quantity(("GPa", "GPa"), ("ksi", "ksi"), 5),
     "strength": Quantity(("MPa", "MPa"), ("ksi", "ksi"), 5),
+    "root strength": Quantity(("MPa", "MPa"), ("psi", "psi"), 5),  # in a code's root of a strength
     "density": Quantity(("kg/m^3", "kg/m³"), ("lb/ft^3", "lb/ft³"), 5),
     "mass": Quantity(("kg", "kg"), ("lb", "lb"), 5),
     "mass per length": Quantity(("kg/m", "kg/m"), ("lb/ft", "lb/ft"), 5),
@@ -281,14 +282,46 @@ def printed(value: float, quantity: str, system: str, *, given: bool = False) ->
     system : {"SI", "US"}
         Units to print in.
     given : bool, optional
-        Whether it is an input: five figures, which all that follows builds on, but no zeros that
-        nobody typed.
+        Whether it is an input: five figures, which all that follows builds on, or up to seven
+        where those are all of it, but no zeros that nobody typed.
     """
-    digits = 5 if given else QUANTITIES[quantity].digits
-    text = rounded(value / unit_size(quantity, system), digits)
+    number = value / unit_size(quantity, system)
+    digits = QUANTITIES[quantity].digits
+    if given:
+        digits = next((figures for figures in (5, 6, 7) if _has_only(number, figures)), 5)
+    text = rounded(number, digits)
     if given and "." in text and "×" not in text:
         text = text.rstrip("0").rstrip(".")
     return Printed(text, unit_of(quantity, system))
+
+
+def converted(value: float, quantity: str, system: str) -> Printed | None:
+    """Return a given value as it was given, where that was in the other system of units.
+
+    A value counts as given in the system in which four figures are all of it, and in `system` if
+    in both; None where it was given in `system`, or in neither. Arguments as in `printed`.
+    """
+    (other,) = (each for each in SYSTEMS if each != system)
+    here, there = (value / unit_size(quantity, each) for each in (system, other))
+    if _has_only(here, 4) or not _has_only(there, 4):
+        return None
+    return printed(value, quantity, other, given=True)
+
+
+def _has_only(number: float, figures: int) -> bool:
+    return math.isclose(number, float(f"{number:.{figures - 1}e}"), rel_tol=1e-9)
+
+
+def stated(value: float, quantity: str, system: str, digits: int = 3) -> str:
+    """Return a given value for a sentence, such as "3.44 ft (1.05 m)" where it was given in metres.
+
+    Arguments as in `printed`; `digits` are the significant figures of one that was converted.
+    """
+    original = converted(value, quantity, system)
+    if original is None:
+        return str(printed(value, quantity, system, given=True))
+    number = rounded(value / unit_size(quantity, system), digits)
+    return f"{Printed(number, unit_of(quantity, system))} ({original})"
 
 
 def rounded(value: float, digits: int) -> str:

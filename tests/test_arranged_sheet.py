@@ -178,7 +178,7 @@ def test_the_page_says_which_method_governs(sheet):
         ),
         (
             {"steps": [{"height": "9 m", "column_shape": "circular", "column_diameter": "1 m"}]},
-            "step height must be above 0 m and below the height 9 m, got 9 m",
+            "steps[1].height must be above 0 m and below the height 9 m, got 9 m",
         ),
         ({"base_stiffness": "-1 MN/m"}, "base_stiffness must be positive, got '-1 MN/m'"),
         (

@@ -289,7 +289,7 @@ def numeric(words):
 @pytest.fixture(scope="module")
 def calculated(sheet):
     """Follow the steps of the page in their order, checking each; return the page."""
-    found = re.search(r"</math> = ([\d.]+) (ft|m)(?: is given|;)", sheet.page)
+    found = re.search(r"</math> = ([\d.]+) (ft|m)(?: \([\d.]+ m\))?(?: is given|;)", sheet.page)
     sheet.learn(["z_n"], found[1], found[2])
     unit = re.search(r'id="tab-work">.*?\[([^\]]+)\]', sheet.page, re.DOTALL)[1]
     sheet.learn(["x", "(", "z_n", ")"], sheet.numbers("tab-work")["Sum"][-1], unit)

@@ -88,6 +88,15 @@ def test_rectangular_column_of_concrete():
     assert case.inputs.date == datetime.date(2026, 1, 31)
 
 
+def test_the_formula_for_concrete_is_that_of_the_units_of_the_sheet():
+    values = CASE | {"elastic_modulus": None, "concrete_strength": "4000 psi", "units": "US"}
+    psi = 0.45359237 * 9.80665 / 0.0254**2
+    expected = 57000.0 * math.sqrt(4000.0) * psi
+    assert case_from(values).column.elastic_modulus == pytest.approx(expected, rel=1e-14)
+    in_si = case_from(values | {"units": "SI"}).column.elastic_modulus
+    assert in_si == pytest.approx(4700e6 * math.sqrt(4000.0 * psi / 1e6), rel=1e-14)
+
+
 def test_concrete_modulus_is_near_the_form_of_the_formula_in_psi():
     # 57,000 √f_c' in psi, the other form of the same rule of thumb, rounds differently by 1 %.
     psi = 6894.757293168

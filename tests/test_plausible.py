@@ -20,7 +20,7 @@ def test_an_ordinary_case_has_nothing_unusual():
         (
             {"elastic_modulus": "3.2 GPa", "units": "SI"},
             "elastic_modulus",
-            "Unusual: elastic modulus 3.2 GPa, where 10 to 220 is usual.",
+            "Unusual: elastic modulus 3.2 GPa, where 10 to 60 is usual.",
         ),
         (
             {"column_height": "40 m", "units": "SI"},
@@ -39,6 +39,40 @@ def test_an_unusual_value_is_named_on_page_one(change, key, words):
     case = case_from(US_CASE | steel | change)
     assert [found.key for found in unusual(case.inputs)] == [key]
     assert any(str(line).startswith(words) for line in warnings_of(calculate(case)))
+
+
+CIRCLE = {"column_shape": "circular", "column_width": None, "column_depth": None}
+
+
+def test_the_sections_of_steps_are_looked_at_as_well():
+    steps = [
+        {"height": "2 m", "column_shape": "circular", "column_diameter": "1 m"},
+        {"height": "3 m", "column_shape": "circular", "column_diameter": "8 m"},
+    ]
+    case = case_from(US_CASE | CIRCLE | {"column_diameter": "1.2 m", "steps": steps, "units": "SI"})
+    (found,) = unusual(case.inputs)
+    assert found == ("column_diameter", 8.0, *USUAL["column_diameter"], 2)
+    assert found.sentence("SI").startswith("Unusual: column diameter 8 m in step 2, where 0.30 to")
+
+
+@pytest.mark.parametrize(
+    ("density", "modulus", "named"),
+    [
+        ("2400 kg/m^3", "3.2 GPa", True),
+        ("2400 kg/m^3", "9.9 GPa", True),
+        ("2400 kg/m^3", "10 GPa", False),
+        ("2400 kg/m^3", "60 GPa", False),
+        ("2400 kg/m^3", "200 GPa", True),  # steel, or a slip
+        ("7850 kg/m^3", "200 GPa", False),
+        ("7850 kg/m^3", "29000 ksi", False),
+        ("7850 kg/m^3", "30 GPa", True),
+        ("7850 kg/m^3", "230 GPa", True),
+    ],
+)
+def test_what_modulus_is_usual_depends_on_the_material(density, modulus, named):
+    change = {"density": density, "elastic_modulus": modulus, "concrete_strength": None}
+    found = [found.key for found in unusual(case_from(US_CASE | change).inputs)]
+    assert found == ["elastic_modulus"] * named
 
 
 def test_ranges_are_of_physical_keys():
@@ -61,7 +95,7 @@ def test_ranges_are_of_physical_keys():
         ({"truck_mass": "29 t", "truck": "tractor-trailer-36t"}, ""),
         (
             {"truck_mass": "19 t", "truck": "tractor-trailer-36t"},
-            "A 41 888 lb mass on the springs of tra",
+            "A 41 900 lb (19 000 kg) mass on the springs of tra",
         ),
     ],
 )

@@ -11,7 +11,7 @@ from pierimpact import (
     load_truck,
     simulate,
 )
-from pierimpact.design.sensitivity import sensitivity
+from pierimpact.design.sensitivity import SPEED_CHANGES, sensitivity
 
 TRUCK = load_truck("single-unit-8t")
 COLUMN = PierColumn(
@@ -63,6 +63,7 @@ def test_each_value_is_that_of_a_calculation_of_its_own(found, name):
 
 def test_the_changes_of_a_reviewer(found):
     step = 10.0 / 3.6  # 10 km/h
+    assert found.speed_change == step
     assert found.slower.values == pytest.approx([SPEED - step])
     assert found.faster.values == pytest.approx([SPEED + step])
     assert found.lighter.values == pytest.approx([0.8 * TRUCK.mass])
@@ -70,6 +71,15 @@ def test_the_changes_of_a_reviewer(found):
     assert found.slower.model[0] < found.faster.model[0]
     history = simulate(TRUCK, PIER, SPEED + step)
     assert found.faster.model[0] == pytest.approx(history.governing_peak.reaction, rel=1e-6)
+
+
+def test_the_change_of_speed_can_be_another():
+    change = 5 * 1609.344 / 3600  # 5 mph
+    assert change == pytest.approx(SPEED_CHANGES["US"], rel=1e-15)
+    other = sensitivity(TRUCK, COLUMN, PIER, HEIGHT, SPEED, SPEED_CHANGES["US"])
+    assert other.speed_change == SPEED_CHANGES["US"]
+    assert other.slower.values == pytest.approx([SPEED - change])
+    assert other.faster.values == pytest.approx([SPEED + change])
 
 
 def test_the_curves_run_over_half_the_value_to_either_side(found):

@@ -10,9 +10,11 @@ from pierimpact.units import (
     DIMENSIONS,
     QUANTITIES,
     SYSTEMS,
+    converted,
     parse,
     printed,
     rounded,
+    stated,
     unit_of,
     unit_size,
 )
@@ -279,6 +281,47 @@ def test_rounding_keeps_the_significant_figures(value, digits):
 )
 def test_rounded(value, digits, text):
     assert rounded(value, digits) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "quantity", "system", "words"),
+    [
+        (1.05, "length", "SI", "1.05 m"),
+        (1.05, "length", "US", "3.44 ft (1.05 m)"),
+        (5 * 12 * INCH, "length", "US", "5 ft"),
+        (5 * 12 * INCH, "length", "SI", "1.524 m"),  # four figures are all of it in metres too
+        (16.458 * 12 * INCH, "length", "US", "16.458 ft"),  # round in neither
+        (600e3 * POUND_FORCE, "force", "US", "600 kip"),
+        (600e3 * POUND_FORCE, "force", "SI", "2670 kN (600 kip)"),
+        (1000e3, "force", "US", "225 kip (1000 kN)"),
+        (36_000 * POUND, "mass", "SI", "16\u202f300 kg (36\u202f000 lb)"),
+        (0.05, "ratio", "US", "0.05"),
+    ],
+)
+def test_a_given_value_in_a_sentence(value, quantity, system, words):
+    assert stated(value, quantity, system) == words
+
+
+@given(st.integers(1, 9999), st.integers(-2, 3), st.sampled_from(SYSTEMS))
+def test_what_is_given_in_one_system_is_printed_in_it(digits, power, system):
+    (other,) = set(SYSTEMS) - {system}
+    value = digits * 10.0**power * unit_size("force", system)
+    own = printed(value, "force", system, given=True)
+    assert converted(value, "force", system) is None
+    assert stated(value, "force", system) == str(own)
+    original = converted(value, "force", other)
+    assert original in (own, None)
+    if original is None:  # by chance round in the other as well
+        there = value / unit_size("force", other)
+        assert there == pytest.approx(float(f"{there:.3e}"), rel=2e-9)
+
+
+@given(st.integers(1, 9_999_999), st.integers(0, 3), st.sampled_from(SYSTEMS))
+def test_given_values_print_as_typed(digits, places, system):
+    typed = f"{digits / 10**places:.{places}f}"
+    unit = unit_of("mass", system)
+    shown = printed(parse("value", f"{typed} {unit}", "mass"), "mass", system, given=True)
+    assert float(shown.number.replace("\u202f", "")) == float(typed)
 
 
 @pytest.mark.parametrize("system", SYSTEMS)

@@ -13,6 +13,7 @@ from pierimpact.certainty import Certainty
 from pierimpact.checks import broadcast, one_of, positive_array
 
 KIP = 4448.2216152605  # pound-force of exactly 0.45359237 kg × 9.80665 m/s², times 1000 [N]
+FOOT = 0.3048  # exactly [m]
 JCSS_STIFFNESS = 300e3  # of a vehicle, the mean, as read in the JCSS model code [N/m]
 
 
@@ -52,31 +53,49 @@ class CodeForce(NamedTuple):
         return all(number.verified for number in numbers if number is not None)
 
 
-def aashto_lrfd() -> CodeForce:
-    """AASHTO LRFD Bridge Design Specifications, 3.6.5: 600 kip at 1.5 m above ground."""
+def aashto_lrfd(system: str = "SI") -> CodeForce:
+    """AASHTO LRFD Bridge Design Specifications, 3.6.5: 600 kip at 1.5 m, or 5 ft, above ground.
+
+    Parameters
+    ----------
+    system : {"SI", "US"}, optional
+        Units in which the height is round: in SI as the source paper cites it, in US units as in
+        the specifications, which is from memory.
+    """
     return CodeForce(
         code="AASHTO LRFD",
         clause="3.6.5",
         along=Sourced(600.0 * KIP, Certainty.CITED),
-        height=Sourced(1.5, Certainty.CITED),
+        height=_height(1.5, 5.0, system),
         note="Based on two full-scale tests. Quoted in kip by the source paper; other units are "
-        "converted. The clause number is from memory, and that the force acts within 15° of the "
-        "travel: unverified. Texas (TxDOT’s manual, read): not needed where the annual "
-        "frequency of a hit is below 0.001; trigger distance 30 ft.",
+        "converted. The height is cited as 1.5 m; 5 ft is from memory. The clause number is from "
+        "memory, and that the force acts within 15° of the travel: unverified. Texas (TxDOT’s "
+        "manual, read): not needed where the annual frequency of a hit is below 0.001; trigger "
+        "distance 30 ft.",
     )
 
 
-def aashto_lrfd_former() -> CodeForce:
-    """AASHTO LRFD Bridge Design Specifications before the tests: 400 kip at 1.2 m."""
+def aashto_lrfd_former(system: str = "SI") -> CodeForce:
+    """AASHTO LRFD Bridge Design Specifications before the tests: 400 kip at 1.2 m, or 4 ft.
+
+    Argument as in `aashto_lrfd`.
+    """
     return CodeForce(
         code="AASHTO LRFD, former value",
         edition="older",
         clause="3.6.5",
         along=Sourced(400.0 * KIP, Certainty.CITED),
-        height=Sourced(1.2, Certainty.CITED),
-        note="In use for nearly 20 years. Quoted in kip; other units are converted. The clause "
-        "number is from memory.",
+        height=_height(1.2, 4.0, system),
+        note="In use for nearly 20 years. Quoted in kip; other units are converted. The height is "
+        "cited as 1.2 m; 4 ft and the clause number are from memory.",
     )
+
+
+def _height(metres: float, feet: float, system: str) -> Sourced:
+    """Return a height that the source paper cites in metres and the code has in feet."""
+    if system == "SI":
+        return Sourced(metres, Certainty.CITED)
+    return Sourced(feet * FOOT, Certainty.RECALLED)
 
 
 def jtg_d60() -> CodeForce:
@@ -236,11 +255,14 @@ def csa_s6_2000() -> CodeForce:
     return CodeForce("CSA S6", force, height=height, edition="2000")
 
 
-def code_forces(speed: float, mass: float) -> tuple[CodeForce, ...]:
-    """Return every clause, for a vehicle of that speed [m/s] and mass [kg] where it matters."""
+def code_forces(speed: float, mass: float, system: str = "SI") -> tuple[CodeForce, ...]:
+    """Return every clause, for a vehicle of that speed [m/s] and mass [kg] where it matters.
+
+    What a code gives in either system of units is what it gives in `system`, "SI" or "US".
+    """
     return (
-        aashto_lrfd(),
-        aashto_lrfd_former(),
+        aashto_lrfd(system),
+        aashto_lrfd_former(system),
         jtg_d60(),
         *(en_1991_1_7_table(road) for road in ("motorway", "country", "urban")),
         en_1991_1_7_germany(),

@@ -15,9 +15,10 @@ from pierimpact.vehicle.truck import Truck
 
 Array: TypeAlias = NDArray[np.float64]
 
-#: The changes that a reviewer asks for, this project's choice: of speed [m/s], and of the share of
-#: the truck's mass.
-SPEED_CHANGE, MASS_CHANGE = 10.0 / 3.6, 0.2
+#: The changes that a reviewer asks for, this project's choice: of speed, round in the units of the
+#: sheet, 10 km/h or 5 mph [m/s]; and of the share of the truck's mass.
+SPEED_CHANGES = {"SI": 10.0 / 3.6, "US": 5.0 * 0.44704}
+MASS_CHANGE = 0.2
 
 # Curves run over these shares of the case's value, and over these frequencies [Hz]: this project's
 # choice.
@@ -48,10 +49,11 @@ class Variation(NamedTuple):
 class Sensitivity(NamedTuple):
     """The variations about one case.
 
-    The last four are for one value each, changed by SPEED_CHANGE or MASS_CHANGE; None where there
-    is no such speed or mass.
+    The last four are for one value each, changed by `speed_change` or MASS_CHANGE; None where
+    there is no such speed or mass.
     """
 
+    speed_change: float  #: [m/s]
     speed: Variation  #: over speed [m/s]
     mass: Variation  #: over the truck's total mass [kg]
     impact_height: Variation  #: over the nominal impact height [m]
@@ -63,7 +65,12 @@ class Sensitivity(NamedTuple):
 
 
 def sensitivity(
-    truck: Truck, column: PierColumn, pier: EquivalentPier, impact_height: float, speed: float
+    truck: Truck,
+    column: PierColumn,
+    pier: EquivalentPier,
+    impact_height: float,
+    speed: float,
+    speed_change: float = SPEED_CHANGES["SI"],
 ) -> Sensitivity:
     """Return the variations about a case.
 
@@ -75,6 +82,8 @@ def sensitivity(
         The column.
     impact_height : float
         Nominal impact height [m].
+    speed_change : float, optional
+        How much slower and faster the last variations are [m/s].
     """
 
     def at_speed(value: float) -> Collision | None:
@@ -101,8 +110,8 @@ def sensitivity(
         "mass": (mass * _SHARES, at_mass),
         "impact_height": (impact_height * _SHARES, at_height),
         "frequency": (np.unique(np.append(_FREQUENCIES, pier.frequency)), at_frequency),
-        "slower": ([speed - SPEED_CHANGE], at_speed),
-        "faster": ([speed + SPEED_CHANGE], at_speed),
+        "slower": ([speed - speed_change], at_speed),
+        "faster": ([speed + speed_change], at_speed),
         "lighter": ([mass * (1.0 - MASS_CHANGE)], at_mass),
         "heavier": ([mass * (1.0 + MASS_CHANGE)], at_mass),
     }
@@ -110,7 +119,7 @@ def sensitivity(
         name: {float(value): changed for value in values if (changed := at(float(value)))}
         for name, (values, at) in asked.items()
     }
-    return Sensitivity(**_reactions(collisions))  # type: ignore[arg-type]
+    return Sensitivity(speed_change, **_reactions(collisions))  # type: ignore[arg-type]
 
 
 def _reactions(collisions: Mapping[str, Mapping[float, Collision]]) -> dict[str, Variation | None]:

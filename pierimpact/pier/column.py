@@ -139,12 +139,12 @@ class PierColumn:
         refuse_mechanism(*self.supports)
         object.__setattr__(self, "steps", tuple(self.steps))
         below = 0.0
-        for step in self.steps:
+        for place, step in enumerate(self.steps, 1):
             if not isinstance(step, Step):
                 raise InputError(f"steps must be Steps, got {step!r}")
             if not below < step.height < self.height:
                 raise InputError(
-                    f"step height must be above {below:g} m and below the height "
+                    f"steps[{place}].height must be above {below:g} m and below the height "
                     f"{self.height:g} m, got {step.height:g} m: no part may have a length of zero"
                 )
             below = step.height

@@ -11,7 +11,7 @@ from pierimpact.collision.simulate import simulate
 from pierimpact.design.band import ReactionBand, reaction_band
 from pierimpact.design.codes import CodeForce, code_forces
 from pierimpact.design.reaction import DesignReaction, design_reaction
-from pierimpact.design.sensitivity import Sensitivity, sensitivity
+from pierimpact.design.sensitivity import SPEED_CHANGES, Sensitivity, sensitivity
 from pierimpact.design.static_forces import StaticForcesInCollision
 from pierimpact.files.case import Case
 from pierimpact.pier.column import StruckColumn
@@ -178,6 +178,7 @@ class Calculation:
             self.pier,
             self.struck.impact_height,
             self.case.inputs.speed,
+            SPEED_CHANGES[self.case.inputs.units],
         )
 
     @cached_property
@@ -239,8 +240,8 @@ class Calculation:
     @cached_property
     def code_effects(self) -> list[CodeEffect]:
         """The forces of codes along the travel, each on this column."""
-        column, effects = self.case.column, []
-        for code in code_forces(self.case.inputs.speed, self.case.truck.mass):
+        column, effects, inputs = self.case.column, [], self.case.inputs
+        for code in code_forces(inputs.speed, self.case.truck.mass, inputs.units):
             height = code.height.value if code.height else self.struck.impact_height
             try:
                 forces = column.struck_at(height).member_forces(code.along.value)

@@ -8,7 +8,7 @@ from pierimpact.files.plausible import unusual
 from pierimpact.pier.static_forces import TOO_LOW
 from pierimpact.report.calculation import Calculation
 from pierimpact.symbols import BY_KEY, SYMBOLS
-from pierimpact.units import printed, rounded, unit_size
+from pierimpact.units import Printed, printed, rounded, stated, unit_size
 from pierimpact.vehicle.truck import another_truck
 
 
@@ -59,7 +59,7 @@ def _another_truck(calculation: Calculation) -> Iterator[str]:
     mass_range = case.truck_file.mass_range
     if mass_range is not None and not case.truck.in_mass_range:
         masses = (
-            str(printed(value, "mass", case.inputs.units, given=True))
+            stated(value, "mass", case.inputs.units)
             for value in (case.truck.mass, mass_range.low, mass_range.high)
         )
         yield (
@@ -69,16 +69,8 @@ def _another_truck(calculation: Calculation) -> Iterator[str]:
 
 
 def _unusual(calculation: Calculation) -> Iterator[str]:
-    system = calculation.case.inputs.units
-    for key, *values in unusual(calculation.case.inputs):
-        _, quantity, meaning, _ = BY_KEY[key]
-        value, unit = printed(values[0], quantity, system, given=True)
-        size = unit_size(quantity, system)
-        least, most = (rounded(end / size, 2) for end in values[1:])
-        yield (
-            f"Unusual: {meaning} {value} {unit}".rstrip()
-            + f", where {least} to {most} is usual. Check the value and its unit."
-        )
+    inputs = calculation.case.inputs
+    yield from (found.sentence(inputs.units) for found in unusual(inputs))
 
 
 def _unknown(calculation: Calculation) -> Iterator[str]:
@@ -124,8 +116,10 @@ def limits_of_the_study(outside: Sequence[Outside], overlapping: bool, system: s
     clauses = []
     for name, *values in outside:
         _, quantity, meaning, _ = SYMBOLS[name]
-        shown, least, most = (printed(value, quantity, system, given=True) for value in values)
-        clauses.append(f"{meaning} {shown} outside the studied {least.number} to {most}")
+        shown = printed(values[0], quantity, system, given=True)
+        least, most = (rounded(end / unit_size(quantity, system), 3) for end in values[1:])
+        studied = Printed(f"{least} to {most}", shown.unit)
+        clauses.append(f"{meaning} {shown} outside the studied {studied}")
     if overlapping:
         clauses.append("the cargo meets the pier before the engine has separated")
     return clauses

@@ -6,7 +6,7 @@ from pierimpact.plots.stub import draw_code_bars
 from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
-from pierimpact.units import rounded
+from pierimpact.units import converted, rounded
 
 _UNKNOWN = "—"
 
@@ -69,7 +69,7 @@ class Codes(Section):
                     self._sourced(code.along, "force"),
                     self._sourced(code.across, "force"),
                     self._sourced(code.height, "length"),
-                    _status(code),
+                    _status(code) + self._as_given(code),
                 ]
                 for code, *_ in self.calculation.code_effects
             ],
@@ -77,6 +77,13 @@ class Codes(Section):
 
     def _sourced(self, value: Sourced | None, quantity: str) -> str:
         return _UNKNOWN if value is None else self.number(value.value, quantity, given=True)
+
+    def _as_given(self, code: CodeForce) -> str:
+        """Return what the code gives in other units than those of the sheet."""
+        given = ((code.along, "force"), (code.across, "force"), (code.height, "length"))
+        values = [converted(v.value, kind, self.system) for v, kind in given if v is not None]
+        words = ", ".join(str(value) for value in values if value is not None)
+        return f"; given as {words}" if words else ""
 
     def effects(self) -> Block:
         """Return base shear and largest moment under each force, and the design's over them."""
@@ -135,7 +142,7 @@ class Codes(Section):
         for code, *_ in self.calculation.code_effects:
             note = code.note
             if code.stiffness is not None:
-                stiffness = self.shown(code.stiffness.value, "stiffness", given=True)
+                stiffness = self.stated(code.stiffness.value, "stiffness")
                 note += (
                     f" k = {stiffness} ({code.stiffness.remark}), speed and mass are the case’s."
                 )

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from pierimpact.files.case import concrete_modulus
+from pierimpact.files.case import CONCRETE_FACTORS
 from pierimpact.pier.arrangement import Part
 from pierimpact.pier.equivalent import vibration
 from pierimpact.pier.static import Piece
@@ -21,7 +21,7 @@ from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, 
 from pierimpact.report.document.step_writer import StepWriter
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
-from pierimpact.units import printed, rounded, unit_size
+from pierimpact.units import Printed, printed, rounded, unit_size
 
 _GIVEN = (
     *("D", "b", "h", "t", "Df", "ns", "Av", "alpha_E", "alpha_rho"),
@@ -73,14 +73,14 @@ class EquivalentPierSteps(PierSection):
     def impact_height(self) -> Block:
         """Return which nominal impact height is used, and why."""
         impacts, symbol = self.calculation.impacts, Tex(SYMBOLS["z"].latex)
-        used = self.shown(self.calculation.struck.impact_height, "length", given=True)
+        used = self.stated(self.calculation.struck.impact_height, "length", 5)  # all rests on it
         if len(impacts) == 1:
             return Paragraph(
                 ("The nominal impact height ", symbol, f" = {used} is given by the case.")
             )
         found = " and ".join(
             f"{self.shown(impact.reaction, 'force')} at "
-            f"{self.shown(impact.struck.impact_height, 'length', given=True)}"
+            f"{self.stated(impact.struck.impact_height, 'length')}"
             for impact in impacts
         )
         return Paragraph(
@@ -127,27 +127,24 @@ class EquivalentPierSteps(PierSection):
         return inputs.sources.get(key) or inputs.assumed.get(key) or "given in the case file"
 
     def _concrete_modulus(self) -> Equation:
-        """Return the modulus by the formula of ACI 318, its factor in the units of the sheet."""
-        modulus, strength = (unit_size(kind, self.system) for kind in ("modulus", "strength"))
-        factor = f"{concrete_modulus(strength) / modulus:.6g}"
-        unit, one = self.unit("modulus"), rf"(1\ \text{{{self.unit('strength')}}})"
-        writer = self._writer()
-        in_mpa = "" if self.system == "SI" else " (4700 with both in MPa)"
+        """Return the modulus by the formula of ACI 318, in the form for the units of the sheet."""
+        unit = self.unit("root strength")
+        factor = in_tex(Printed(rounded(CONCRETE_FACTORS[self.system], 5), unit))
+        strength = self.shown(self._values["fc"], "root strength", given=True)
 
         def formula(value: str, times: str) -> str:
-            return rf"{factor}\ \text{{{unit}}} {times} \sqrt{{{value} / {one}}}"
+            return rf"{factor} {times} \sqrt{{{value} / (1\ \text{{{unit}}})}}"
 
-        values = formula(in_tex(writer.shown("fc")), r"\times")
+        values = formula(in_tex(strength), r"\times")
         return Equation(
             label="eq-E",
             name="Elastic modulus of the concrete",
             symbol="E",
             lines=[
                 formula(SYMBOLS["fc"].latex, r"\,"),
-                f"{values} = {in_tex(writer.shown('E'))}",
+                f"{values} = {in_tex(self._writer().shown('E'))}",
             ],
-            source=f"formula of ACI 318{in_mpa}, from memory; "
-            "unverified: check against the standard",
+            source="formula of ACI 318, from memory; unverified: check against the standard",
         )
 
     @cached_property

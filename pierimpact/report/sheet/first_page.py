@@ -59,7 +59,7 @@ class FirstPage(Section):
     def verdict(self) -> Block:
         """Return what the sheet comes to, a drawing of the case, and its results."""
         result, struck = self.calculation, self.calculation.struck
-        height = self.shown(struck.impact_height, "length", given=True)
+        height = self.stated(struck.impact_height, "length")
         reaction = self.shown(result.design_force, "force")
         return Verdict(
             statement=self._statement(),
@@ -118,7 +118,7 @@ class FirstPage(Section):
     def _results(self) -> Iterator[tuple[str, Printed, Inline]]:
         """Yield the results beside the drawing: label, value and remark."""
         result, pier = self.calculation, self.calculation.pier
-        height = self.shown(result.struck.impact_height, "length", given=True)
+        height = self.stated(result.struck.impact_height, "length")
         of_both = " (the larger of both heights)" if len(result.impacts) > 1 else ""
         yield (
             "Design reaction",
@@ -146,7 +146,7 @@ class FirstPage(Section):
             yield f"Largest {name}", shown, f"{METHODS[demand.method]}{of_static}"
         average = result.average_forces[AVERAGE]
         if average is not None:
-            code = aashto_lrfd()
+            code = aashto_lrfd(self.system)
             yield (
                 f"Largest {self.shown(AVERAGE, 'time', given=True)} average",
                 self.shown(average.force, "force"),

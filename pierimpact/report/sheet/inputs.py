@@ -137,6 +137,8 @@ class Inputs(Section):
             if parameter.name == "body_mass" and case.inputs.truck_mass is not None:
                 value = case.truck.body_mass
                 status, source = "from the case", "total mass of the case less the engine’s"
+            else:
+                source += self._as_given(BY_KEY[parameter.name], value, parameter.given)
             rows.append(self._row(BY_KEY[parameter.name], value, status, source))
         caption = f"Parameters of the truck {case.truck.name}: {case.truck_file.description}."
         return _table("tab-truck", caption, "Parameter", rows)

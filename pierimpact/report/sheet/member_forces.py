@@ -48,7 +48,7 @@ class MemberForces(Section):
             )
         several = len(result.impacts) > 1
         for impact in result.impacts if several else ():
-            height = self.shown(impact.struck.impact_height, "length", given=True)
+            height = self.stated(impact.struck.impact_height, "length")
             rows += [
                 self._largest(name, impact.demands[name], f", struck at {height}")
                 for name in DEMANDS

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from pierimpact.files.case import Case
 from pierimpact.report.calculation import Calculation
-from pierimpact.units import Printed, printed, unit_of
+from pierimpact.units import Printed, printed, stated, unit_of
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,10 @@ class Section:
     def shown(self, value: float, quantity: str, *, given: bool = False) -> Printed:
         """Return a value as the sheet prints it; arguments as in `units.printed`."""
         return printed(value, quantity, self.system, given=given)
+
+    def stated(self, value: float, quantity: str, digits: int = 3) -> str:
+        """Return a given value in the units that it was given in as well; as `units.stated`."""
+        return stated(value, quantity, self.system, digits)
 
     def number(self, value: float | None, quantity: str, *, given: bool = False) -> str:
         """Return a value without its unit, "none" where there is none."""

@@ -1,6 +1,6 @@
 """The spectra with this pier, and how the reaction changes with what it depends on."""
 
-from pierimpact.design.sensitivity import MASS_CHANGE, SPEED_CHANGE
+from pierimpact.design.sensitivity import MASS_CHANGE
 from pierimpact.plots.band import draw_band
 from pierimpact.plots.figures import draw_sensitivity
 from pierimpact.plots.stub import draw_tornado
@@ -18,7 +18,7 @@ class Variations(Section):
     def tornado(self) -> Block:
         """Return what moves the governing reaction most."""
         result = self.calculation
-        step = self.shown(SPEED_CHANGE, "speed", given=True)
+        step = self.shown(result.sensitivity.speed_change, "speed", given=True)
         spread = " and the truck’s parameters within their spread" if result.band.spread else ""
         return Figure(
             label="fig-tornado",
@@ -86,13 +86,13 @@ class Variations(Section):
         """Return the reactions at other speeds and masses."""
         result, found = self.calculation, self.calculation.sensitivity
         speed, mass = self.case.inputs.speed, self.case.truck.mass
-        step = self.shown(SPEED_CHANGE, "speed", given=True)
+        step = self.shown(found.speed_change, "speed", given=True)
         share = f"{100.0 * MASS_CHANGE:g} %"
         here = result.short.reaction, result.governing_peak.reaction
         rows = [self._row("This case", "", *here)]
         for name, variation, quantity, value in (
-            (f"Speed less {step}", found.slower, "speed", speed - SPEED_CHANGE),
-            (f"Speed more {step}", found.faster, "speed", speed + SPEED_CHANGE),
+            (f"Speed less {step}", found.slower, "speed", speed - found.speed_change),
+            (f"Speed more {step}", found.faster, "speed", speed + found.speed_change),
             (f"Mass less {share}", found.lighter, "mass", mass * (1.0 - MASS_CHANGE)),
             (f"Mass more {share}", found.heavier, "mass", mass * (1.0 + MASS_CHANGE)),
         ):
