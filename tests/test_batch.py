@@ -274,6 +274,7 @@ def test_the_csv_reads_back_to_four_figures(made):
         assert row["governs"] == outcome.governs
         assert row["shear method"] == outcome.demands["shear"].method
         assert row["moment method"] == outcome.demands["moment"].method
+        assert row["warnings"] == "; ".join((*report.results.warnings, *report.warnings))
     assert by_name["A"]["project"] == "'=1+1"
     assert by_name["A"]["element"] == "'@x;'-y"
     assert by_name["P4"]["warnings"] == ""
@@ -420,6 +421,37 @@ def test_the_summary_has_the_date_of_the_last_revision(example):
         Row(f"P{day}", faked(example, date=datetime.date(2026, 5, day)), []) for day in (3, 9, 6)
     ]
     assert "2026-05-09" in summary_blocks(rows)[0]._repr_html_()
+
+
+def test_every_warning_stands_by_its_case_and_in_the_csv(example):
+    rows = [
+        Row("P1", faked(example, warnings=("Worst.", "Known by all.", "<b> & so on.")), []),
+        Row("P2", None, ["P2.yaml: is not UTF-8 text"]),
+        Row("P3", faked(example, warnings=("Known by all.", "Its own.")), ["a letter is missing"]),
+        Row("P4", faked(example, warnings=("Known by all.",)), []),
+    ]
+    page = "".join(block._repr_html_() for block in summary_blocks(rows))
+    assert "<b>" not in page
+    assert sorted(row for row in rows_of(page) if len(row) == 2) == sorted(
+        [
+            ["Case", "Warning"],
+            ["all cases", "Known by all."],
+            ["P1", "Worst."],
+            ["P1", "<b> & so on."],
+            ["P3", "Its own."],
+            ["P3", "a letter is missing"],
+        ]
+    )
+    lines = list(csv.DictReader(io.StringIO(summary_csv(rows), newline="")))
+    assert [(line["warnings"], line["reason"]) for line in lines] == [
+        ("Worst.; Known by all.; <b> & so on.", ""),
+        ("", "P2.yaml: is not UTF-8 text"),
+        ("Known by all.; Its own.; a letter is missing", ""),
+        ("Known by all.", ""),
+    ]
+    # What a case alone is warned of is its own.
+    alone = "".join(block._repr_html_() for block in summary_blocks(rows[3:]))
+    assert [row for row in rows_of(alone) if len(row) == 2][1:] == [["P4", "Known by all."]]
 
 
 def test_a_project_of_their_own_is_a_column(tmp_path):

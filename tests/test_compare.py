@@ -1,7 +1,6 @@
 """What changed between two case files: inputs, results, and nothing else."""
 
 import random
-from dataclasses import replace
 
 import pytest
 import yaml
@@ -10,6 +9,7 @@ from pierimpact import cli
 from pierimpact.files.case import case_from, read_case_file
 from pierimpact.report.calculation import calculate
 from pierimpact.report.comparison import Change, compare
+from pierimpact.report.warnings import warnings_of
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import parse
@@ -130,10 +130,9 @@ def test_results_are_those_of_the_calculations(calculated):
 
 
 def test_the_band_and_the_method_of_member_forces(calculated):
-    old = calculated(truck="single-unit-8t", truck_mass=None)
-    new = replace(
-        old,
-        case=replace(old.case, inputs=old.case.inputs.model_copy(update={"member_forces": "beam"})),
+    old, new = (
+        calculated(truck="single-unit-8t", truck_mass=None, member_forces=method)
+        for method in ("static", "beam")
     )
     found = {change.name: change for change in compare(old, new).results}
     beam, static = new.demands["shear"], old.demands["shear"]
@@ -168,6 +167,14 @@ def test_the_band_and_the_method_of_member_forces(calculated):
             ("Note", "—", "three"), ("Note", "one", "—")
         ]),
         ({}, {"units": "US"}, [("Units", "SI (default)", "US")]),
+        (
+            {},
+            {"annexes": ["truck", "codes"], "revisions": [{"revision": "A", "date": "2026-02-03"}]},
+            [
+                ("Annexes", "—", "truck, codes"),
+                ("Line of the table of revisions", "—", "A, 2026-02-03: —, —"),
+            ],
+        ),
         (
             {},
             {"steps": [
@@ -280,3 +287,21 @@ def test_the_command_prints_and_writes_nothing(tmp_path, capsys, monkeypatch):
         "pierimpact: nowhere/P1.yaml: cannot be read: No such file or directory\n"
     )
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def of_resistance(calculation):
+    return [text for text in warnings_of(calculation) if "times the resistance" in text]
+
+
+def test_warnings_that_came_and_went(calculated):
+    firm, weak, weaker = (calculated(shear_resistance=f"{r} MN") for r in (9, 4, 3))
+    comparison = compare(firm, weak)
+    (came,) = comparison.came
+    assert came in of_resistance(weak)
+    assert comparison.went == []
+    assert (compare(weak, firm).came, compare(weak, firm).went) == ([], [came])
+    assert f"Warnings that came\n- {came}" in comparison.text()
+    assert came in "".join(block._repr_html_() for block in comparison.blocks())
+    # It is not another warning for another number in it.
+    assert of_resistance(weaker) != of_resistance(weak)
+    assert (compare(weak, weaker).came, compare(weak, weaker).went) == ([], [])

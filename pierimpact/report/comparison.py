@@ -4,6 +4,7 @@ Values count as equal where they agree to nine figures, so that 1.2 m and 120 cm
 """
 
 import math
+import re
 import textwrap
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,7 +21,8 @@ from pierimpact.symbols import BY_KEY
 from pierimpact.units import printed, rounded
 
 NOT_THERE = "—"
-_APART = ("assumed", "sources", "notes", "steps", "truck")  # keys that are no values of their own
+# Keys that are no values of their own, and that which says what this case is compared with.
+_APART = ("assumed", "sources", "notes", "revisions", "steps", "truck", "supersedes")
 _WIDEST = (36, 26, 26, 9)  # columns of the table in plain text [characters]
 
 
@@ -127,10 +129,20 @@ def compare(old: Calculation, new: Calculation) -> Comparison:
             for change in _changes(_results(previous), _results(results), system)
             if change.old != change.new
         ],
-        came=[text for text in results.warnings if text not in previous.warnings],
-        went=[text for text in previous.warnings if text not in results.warnings],
+        came=_alone(results.warnings, previous.warnings),
+        went=_alone(previous.warnings, results.warnings),
         retyped=list(_retyped(before, inputs)),
     )
+
+
+def _alone(warnings: Sequence[str], others: Sequence[str]) -> list[str]:
+    """Return the warnings that are not among the others, whatever numbers are in them."""
+
+    def wording(text: str) -> str:
+        return re.sub(r"\d[\d.\u202f]*", "0", text)
+
+    known = {wording(text) for text in others}
+    return [text for text in warnings if wording(text) not in known]
 
 
 def _changes(
@@ -208,6 +220,9 @@ def _inputs(case: Case) -> dict[Hashable, _Value]:
             name = f"{_words(key)}, step {number}"
             values["steps", number, key] = _input(step, key, typed, name)
     values |= {("notes", note): _Value("Note", note) for note in inputs.notes}
+    for one in inputs.revisions:
+        line = f"{one.revision}, {one.date}: {one.description}, {one.by}"
+        values["revisions", line] = _Value("Line of the table of revisions", line)
     return values | _truck(case)
 
 

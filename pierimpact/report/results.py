@@ -5,16 +5,10 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict
 
-from pierimpact.certainty import Certainty
-from pierimpact.design.codes import aashto_lrfd
-from pierimpact.design.domain import Outside
-from pierimpact.files.plausible import Unusual, unusual
 from pierimpact.report.calculation import Calculation
+from pierimpact.report.warnings import warnings_of
 from pierimpact.symbols import SYMBOLS
 
-#: Window of the average that the force of AASHTO LRFD was taken from, as read in NCHRP Report 892
-#: [s].
-AVERAGE = 0.025
 #: MIME type of the results in the output of a notebook's cell.
 RESULTS_MIME = "application/vnd.pierimpact.report.results+json"
 
@@ -42,17 +36,13 @@ class Results(BaseModel):
     base: str
     top: str
     truck: str  #: its name
-    truck_status: Certainty
     truck_mass: float
     speed: float
-    unusual: tuple[Unusual, ...]  #: inputs outside what is usual
-    assumed: int  #: number of inputs that are assumed
 
     impact_height: float
     pier_stiffness: float
     pier_mass: float
     pier_frequency: float
-    engine_contact: bool
     engine_peak: float
     cargo_peak: float | None
     design_reaction: float
@@ -67,16 +57,13 @@ class Results(BaseModel):
     #: None where the collision is over sooner.
     code_ratio: float | None
     utilisations: dict[str, float]  #: by "shear" and "moment", where there is a resistance
-    outside: tuple[Outside, ...]  #: values outside the studied domain of the design procedure
-    overlapping: bool  #: whether the cargo meets the pier before the engine has separated
-    warnings: tuple[str, ...] = ()  #: the weightiest first
+    warnings: tuple[str, ...]  #: what is least safe first
 
     @classmethod
     def of(cls, calculation: Calculation) -> Self:
         """Return the results of a calculation."""
-        case, history, design = calculation.case, calculation.history, calculation.design
-        inputs, cargo = case.inputs, history.cargo_peak
-        section, average = case.column.section, calculation.average_forces[AVERAGE]
+        case, history = calculation.case, calculation.history
+        section, cargo = case.column.section, history.cargo_peak
         shear, moment = (calculation.demands[name] for name in ("shear", "moment"))
         low, _, high = calculation.band.quantiles()
         calculated = {
@@ -86,15 +73,11 @@ class Results(BaseModel):
                 if SYMBOLS[symbol].quantity == "section length"
             ),
             "truck": case.truck.name,
-            "truck_status": case.truck_file.status,
             "truck_mass": case.truck.mass,
-            "unusual": tuple(unusual(inputs)),
-            "assumed": len(inputs.assumed),
             "impact_height": calculation.struck.impact_height,
             "pier_stiffness": calculation.pier.stiffness,
             "pier_mass": calculation.pier.mass,
             "pier_frequency": calculation.pier.frequency,
-            "engine_contact": history.engine_contact_time is not None,
             "engine_peak": history.engine_peak.reaction,
             "cargo_peak": None if cargo is None else cargo.reaction,
             "design_reaction": calculation.design_force,
@@ -104,12 +87,11 @@ class Results(BaseModel):
             "shear_method": shear.method,
             "largest_moment": moment.value,
             "moment_method": moment.method,
-            "code_ratio": average and average.force / aashto_lrfd().along.value,
+            "code_ratio": calculation.code_ratio,
             "utilisations": calculation.utilisations,
-            "outside": design.outside,
-            "overlapping": design.overlapping,
+            "warnings": tuple(warnings_of(calculation)),
         }
-        return cls.model_validate(inputs.model_dump() | calculated)
+        return cls.model_validate(case.inputs.model_dump() | calculated)
 
     @classmethod
     def in_notebook(cls, notebook: Any) -> Self:

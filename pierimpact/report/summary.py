@@ -11,7 +11,6 @@ from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph
 from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table, columns, wide
 from pierimpact.report.results import Results
-from pierimpact.report.sheet.summary import limits_of_the_study
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 
@@ -130,7 +129,7 @@ def summary_blocks(rows: Sequence[Row]) -> list[Block]:
         blocks.append(Notice(heading="No report", body=["; ".join(why) for why in failures]))
     blocks += [
         _table("tab-results", _RESULTS_CAPTION, ranked, system, _shown(results.values())),
-        *_warnings_table(ranked, system),
+        *_warnings_table(ranked),
     ]
     shown = _OF_THE_CASES
     if len({result.project for result in results.values()}) == 1:
@@ -184,9 +183,9 @@ def _shown(results: Iterable[Results]) -> list[_Column]:
     return [column for column in _OF_THE_TABLE if column.name not in left_out]
 
 
-def _warnings_table(ranked: Sequence[Row], system: str) -> Iterator[Block]:
+def _warnings_table(ranked: Sequence[Row]) -> Iterator[Block]:
     """Yield the warnings of the cases as a table, those that all have in common first."""
-    warnings = [_warnings(row, system) for row in ranked]
+    warnings = [_warnings(row) for row in ranked]
     common = [text for text in warnings[0] if all(text in own for own in warnings)]
     if len(ranked) == 1:
         common = []
@@ -274,7 +273,7 @@ def _headline(rows: Sequence[Row], system: str) -> Block:
     if ratios:
         ratio, name, check = max(ratios)
         worst = f"largest utilisation {rounded(ratio, 3)}: {name}, in {check}"
-    warned = sum(bool(_warnings(row, system)) for row in rows if row.results is not None)
+    warned = sum(bool(_warnings(row)) for row in rows if row.results is not None)
     strongest = max(results, key=lambda name: results[name].design_reaction)
     failed = len(rows) - len(results)
     counts = (
@@ -323,7 +322,7 @@ def _values(row: Row, system: str) -> dict[str, Any]:
     values = {name.replace("_", " "): value for name, value in result.model_dump().items()}
     values |= {f"utilisation in {check}": result.utilisations.get(check) for check in CHECKS}
     low, high = result.band or (None, None)
-    warnings = _warnings(row, system)
+    warnings = _warnings(row)
     return values | {
         "case": row.name,
         "status": "calculated",
@@ -353,21 +352,7 @@ def column_in_words(result: Results, system: str) -> str:
     return f"{section}, {height} high, base {result.base}, top {result.top}"
 
 
-def _warnings(row: Row, system: str) -> list[str]:
-    """Return what to know before relying on a row, the weightiest first."""
-    result = row.results
-    assert result is not None
-    remarks = [
-        f"exceeds the resistance to {check}"
-        for check, ratio in result.utilisations.items()
-        if ratio > 1.0
-    ]
-    remarks += [f"unusual {BY_KEY[key].meaning}" for key, *_ in result.unusual]
-    if not result.engine_contact:
-        remarks.append("no engine contact")
-    remarks += limits_of_the_study(result.outside, result.overlapping, system)
-    if not result.truck_status.verified:
-        remarks.append(f"truck {result.truck_status.words}")
-    if result.assumed:
-        remarks.append(f"{result.assumed} input{'s' * (result.assumed > 1)} assumed")
-    return [*remarks, *row.remarks]
+def _warnings(row: Row) -> list[str]:
+    """Return what to know before relying on a case, what is least safe first."""
+    assert row.results is not None
+    return [*row.results.warnings, *row.remarks]
