@@ -24,6 +24,12 @@ failed; 130 if interrupted, which leaves complete files only.
 """
 
 
+_COMPARE = """\
+Calculate two case files and print which inputs, results and warnings changed from the one to the
+other, in the units of the new one. Nothing is written.
+"""
+_COMPARE_EXIT_CODES = "Exit code: 0 whether or not anything changed; 2 if the input is bad."
+
 _FIT = """\
 Fit the crush-law parameters of a truck to force records, measured or from finite elements. A
 record is a CSV file with a heading such as: time [ms], contact force [kN]; the force may also be
@@ -42,6 +48,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _teach(options.app, options.folder, options.browser)
         if options.command == "fit":
             return _fit(options)
+        if options.command == "compare":
+            return _compare([options.old, options.new])
         return _report(options.cases, options.output)
     except InputError as error:
         _complain(error)
@@ -91,6 +99,14 @@ def _parser() -> argparse.ArgumentParser:
     teach.add_argument(
         "--no-browser", dest="browser", action="store_false", help="do not open a browser"
     )
+    compare = commands.add_parser(
+        "compare",
+        help="say what changed between two case files",
+        description=_COMPARE,
+        epilog=_COMPARE_EXIT_CODES,
+    )
+    compare.add_argument("old", metavar="OLD.yaml", help="case file of the revision before")
+    compare.add_argument("new", metavar="NEW.yaml", help="case file of the new revision")
     _add_fit(commands)
     return parser
 
@@ -256,6 +272,23 @@ def _teach(app: bool, folder: str, browser: bool) -> int:
     except TeachError as error:
         _complain(error)
         return 1
+
+
+def _compare(paths: Sequence[str]) -> int:
+    try:
+        from pierimpact.files.case import read_case_file
+        from pierimpact.report.calculation import calculate
+        from pierimpact.report.comparison import compare
+    except ModuleNotFoundError as error:
+        return _needs("comparisons", error)
+    calculations = []
+    for path in paths:
+        try:
+            calculations.append(calculate(read_case_file(path).case))
+        except InputError as error:  # which names the file, and both may have the same name
+            raise InputError(str(error).replace(Path(path).name, path, 1)) from None
+    print(" → ".join(paths), compare(*calculations).text(), sep="\n\n")
+    return 0
 
 
 def _report(paths: Sequence[str], output: str) -> int:

@@ -9,7 +9,7 @@ from pierimpact.collision.averages import AverageForce, largest_average_force
 from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.simulate import simulate
 from pierimpact.design.band import ReactionBand, reaction_band
-from pierimpact.design.codes import CodeForce, code_forces
+from pierimpact.design.codes import CodeForce, aashto_lrfd, code_forces
 from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.design.sensitivity import SPEED_CHANGES, Sensitivity, sensitivity
 from pierimpact.design.static_forces import StaticForcesInCollision
@@ -21,6 +21,8 @@ from pierimpact.pier.member_forces import MemberForceHistory, MemberForces
 #: Windows of the moving averages that crash tests report: 10 and 25 ms as read in NCHRP Report 892,
 #: 50 ms from memory [s].
 WINDOWS = (0.010, 0.025, 0.050)
+#: The one that the force of AASHTO LRFD was taken from, as read in NCHRP Report 892 [s].
+AVERAGE = 0.025
 
 
 class Demand(NamedTuple):
@@ -236,6 +238,15 @@ class Calculation:
         """The largest moving averages by window [s]; None where the collision is over sooner."""
         end = self.history.time[-1]
         return {w: largest_average_force(self.history, w) if w <= end else None for w in WINDOWS}
+
+    @property
+    def code_ratio(self) -> float | None:
+        """The 25 ms average over the force of AASHTO LRFD, which is such an average [-].
+
+        None where the collision is over sooner.
+        """
+        average = self.average_forces[AVERAGE]
+        return None if average is None else average.force / aashto_lrfd().along.value
 
     @cached_property
     def code_effects(self) -> list[CodeEffect]:

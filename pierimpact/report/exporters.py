@@ -82,7 +82,8 @@ class _SheetExporter(TemplateExporter):
             for output in cell.get("outputs", []):
                 data = output.get("data", {})
                 if BLOCK_MIME in data:
-                    yield data[BLOCK_MIME]
+                    block = data[BLOCK_MIME]
+                    yield from block["blocks"] if block["type"] == "Group" else [block]
                 elif self.own_mime in data:
                     yield {"type": "Prose", "converted": data[self.own_mime]}
                 elif "text/markdown" in data:
@@ -193,7 +194,7 @@ class SheetHTMLExporter(_SheetExporter):
 
 
 def _letter(blocks: list[dict[str, Any]]) -> None:
-    """Number the subheadings of annexes by their letters."""
+    """Give the subheadings of annexes the letters of these."""
     letter, count = "", 0
 
     def numbered(number: re.Match[str]) -> str:

@@ -3,13 +3,10 @@
 import datetime
 from typing import Any, Self
 
-from nbformat import NotebookNode
 from pydantic import BaseModel, ConfigDict
 
-from pierimpact.certainty import Certainty
-from pierimpact.design.domain import Outside
-from pierimpact.files.plausible import Unusual, unusual
 from pierimpact.report.calculation import Calculation
+from pierimpact.report.warnings import warnings_of
 from pierimpact.symbols import SYMBOLS
 
 #: MIME type of the results in the output of a notebook's cell.
@@ -39,29 +36,36 @@ class Results(BaseModel):
     base: str
     top: str
     truck: str  #: its name
-    truck_status: Certainty
     truck_mass: float
     speed: float
-    unusual: tuple[Unusual, ...]  #: inputs outside what is usual
-    assumed: int  #: number of inputs that are assumed
 
     impact_height: float
+    pier_stiffness: float
+    pier_mass: float
     pier_frequency: float
-    engine_contact: bool
     engine_peak: float
     cargo_peak: float | None
     design_reaction: float
+    #: Reactions below which 5 and 95 % of trucks stay; None where no parameter carries a spread.
+    band: tuple[float, float] | None
     governs: str
+    largest_shear: float
+    shear_method: str  #: that it is found by, "beam" or "static"
+    largest_moment: float
+    moment_method: str
+    #: 25 ms average of the contact force over the force of AASHTO LRFD, which is such an average;
+    #: None where the collision is over sooner.
+    code_ratio: float | None
     utilisations: dict[str, float]  #: by "shear" and "moment", where there is a resistance
-    outside: tuple[Outside, ...]  #: values outside the studied domain of the design procedure
-    overlapping: bool  #: whether the cargo meets the pier before the engine has separated
+    warnings: tuple[str, ...]  #: what is least safe first
 
     @classmethod
     def of(cls, calculation: Calculation) -> Self:
         """Return the results of a calculation."""
-        case, history, short = calculation.case, calculation.history, calculation.short
-        inputs, cargo = case.inputs, history.cargo_peak
-        section = case.column.section
+        case, history = calculation.case, calculation.history
+        section, cargo = case.column.section, history.cargo_peak
+        shear, moment = (calculation.demands[name] for name in ("shear", "moment"))
+        low, _, high = calculation.band.quantiles()
         calculated = {
             "column_sizes": tuple(
                 getattr(section, name)
@@ -69,26 +73,29 @@ class Results(BaseModel):
                 if SYMBOLS[symbol].quantity == "section length"
             ),
             "truck": case.truck.name,
-            "truck_status": case.truck_file.status,
             "truck_mass": case.truck.mass,
-            "unusual": tuple(unusual(inputs)),
-            "assumed": len(inputs.assumed),
             "impact_height": calculation.struck.impact_height,
+            "pier_stiffness": calculation.pier.stiffness,
+            "pier_mass": calculation.pier.mass,
             "pier_frequency": calculation.pier.frequency,
-            "engine_contact": history.engine_contact_time is not None,
             "engine_peak": history.engine_peak.reaction,
             "cargo_peak": None if cargo is None else cargo.reaction,
             "design_reaction": calculation.design_force,
+            "band": (float(low), float(high)) if calculation.band.spread else None,
             "governs": calculation.governs,
+            "largest_shear": shear.value,
+            "shear_method": shear.method,
+            "largest_moment": moment.value,
+            "moment_method": moment.method,
+            "code_ratio": calculation.code_ratio,
             "utilisations": calculation.utilisations,
-            "outside": short.outside,
-            "overlapping": short.overlapping,
+            "warnings": tuple(warnings_of(calculation)),
         }
-        return cls.model_validate(inputs.model_dump() | calculated)
+        return cls.model_validate(case.inputs.model_dump() | calculated)
 
     @classmethod
-    def in_notebook(cls, notebook: NotebookNode) -> Self:
-        """Return the results that an executed notebook carries."""
+    def in_notebook(cls, notebook: Any) -> Self:
+        """Return the results that an executed notebook, as nbformat has it, carries."""
         (results,) = (
             output.data[RESULTS_MIME]
             for cell in notebook.cells

@@ -3,19 +3,20 @@
 import csv
 import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import pierimpact
 from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph, TitleBlock
 from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
-from pierimpact.report.document.numbered import Column, Table, columns
+from pierimpact.report.document.numbered import Column, Table, columns, wide
 from pierimpact.report.results import Results
-from pierimpact.report.warnings import limits_of_the_study
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 
 NONE = "none"  # instead of a peak that is not there
+UNKNOWN = "—"  # instead of what a case does not give
+EXCEEDED = "exceeded"
 
 
 class Row(NamedTuple):
@@ -23,18 +24,18 @@ class Row(NamedTuple):
 
     name: str  #: of its report's files, without ending
     results: Results | None  #: None where it has no report
-    remarks: Sequence[str]  #: warnings of its report, or why there is none
+    remarks: Sequence[str]  #: about its report's files, or why there is none
 
 
 class _Column(NamedTuple):
-    """A value of each case: a column of the CSV and, if it has a heading, of a table."""
+    """A value of each case: a column of a table, of the CSV, or of both."""
 
-    name: str  #: of the value
-    heading: Piece = ""
+    name: str  #: of the value, and in the CSV
+    heading: Piece = ""  #: in a table
     quantity: str = ""  #: of a number
     given: bool = False
     wide: bool = False
-    missing: str = ""  #: what a table shows in place of no value
+    missing: str = UNKNOWN  #: what a table shows in place of no value
 
     def unit(self, system: str) -> str:
         """Return the unit in brackets after a space, or nothing where there is none."""
@@ -51,6 +52,8 @@ class _Column(NamedTuple):
         """Return a value as a table shows it."""
         if not value and not isinstance(value, float):
             return self.missing
+        if isinstance(value, tuple):  # the ends of a range
+            return "–".join(rounded(end / unit_size(self.quantity, system), 3) for end in value)
         if self.quantity == "ratio":
             return rounded(value, 3)
         if not self.quantity:
@@ -58,74 +61,89 @@ class _Column(NamedTuple):
         return printed(value, self.quantity, system, given=self.given).number
 
     def field(self, value: Any, system: str) -> Any:
-        """Return a value as the CSV has it: unrounded, and None, an empty field, if missing."""
+        """Return a value as the CSV has it: four figures, inputs five, an empty field if none."""
         if isinstance(value, str):
             return no_formula(value)
-        return value / unit_size(self.quantity, system) if value is not None else None
+        if value is None:
+            return None
+        number = float(f"{value / unit_size(self.quantity, system):.{4 + self.given}g}")
+        return int(number) if number.is_integer() else number
 
 
-_CHECKS = ("shear", "moment")
-_CASE = (
-    _Column("project", "Project", wide=True),
-    _Column("job number"),
+CHECKS = ("shear", "moment")
+_OF_THE_TABLE = (
     _Column("element", "Element", wide=True),
+    _Column("design reaction", "Reaction", "force"),
+    _Column("band", "5 to 95 %", "force"),
+    _Column("largest shear", "Shear", "force"),
+    _Column("shear method", "by"),
+    _Column("largest moment", "Moment", "moment"),
+    _Column("moment method", "by"),
+    _Column("utilisation in shear", Tex(r"V/V_\mathrm{R}"), "ratio"),
+    _Column("utilisation in moment", Tex(r"M/M_\mathrm{R}"), "ratio"),
+    _Column("resistance", "Resistance"),
+    _Column("code ratio", "Code ratio", "ratio"),
+    _Column("number of warnings", "Warnings", missing="none"),
+)
+_OF_THE_CASES = (
+    _Column("project", "Project", wide=True),
     _Column("column", "Column", wide=True),
     _Column("truck", "Truck"),
     *(
         _Column(key.replace("_", " "), Tex(BY_KEY[key].latex), BY_KEY[key].quantity, given=True)
         for key in ("truck_mass", "speed", "impact_height")
     ),
-)
-_RESULTS = (
     _Column("pier frequency", Tex(r"f_\mathrm{p}"), "frequency"),
     _Column("engine peak", "Engine peak", "force"),
     _Column("cargo peak", "Cargo peak", "force", missing=NONE),
-    _Column("design reaction", "Design reaction", "force"),
     _Column("governs", "Governs"),
-    *(
-        _Column(f"utilisation in {check}", f"Utilisation, {check}", "ratio", missing="—")
-        for check in _CHECKS
-    ),
+)
+_OF_THE_CSV = (
+    _Column("case"),
     _Column("status"),
-    _Column("remarks", "Remarks", wide=True, missing="—"),
+    _Column("job number"),
+    _Column("revision"),
+    _OF_THE_TABLE[0],
+    *_OF_THE_CASES,
+    *_OF_THE_TABLE[1:2],
+    _Column("reaction, 5 % of trucks below", quantity="force"),
+    _Column("reaction, 95 % of trucks below", quantity="force"),
+    *_OF_THE_TABLE[3:-1],
+    _Column("warnings"),
+    _Column("reason"),
 )
 
 
 def summary_blocks(rows: Sequence[Row]) -> list[Block]:
-    """Return the summary sheet of cases, at least one of which is calculated."""
+    """Return the summary sheet of cases, at least one of which is calculated, the worst first."""
     results = _calculated(rows)
     system = _system(results.values())
+    ranked = sorted(
+        (row for row in rows if row.results is not None),
+        key=lambda row: _weight(results[row.name]),
+        reverse=True,
+    )
     blocks = [_title_block(list(results.values()), system), _headline(rows, system)]
     failures = [row.remarks for row in rows if row.results is None]
     if failures:
-        blocks.append(Notice(heading="Not calculated", body=["; ".join(why) for why in failures]))
-    checked = {check for result in results.values() for check in result.utilisations}
-    left_out = {f"utilisation in {check}" for check in _CHECKS if check not in checked}
+        blocks.append(Notice(heading="No report", body=["; ".join(why) for why in failures]))
+    blocks += [
+        _table("tab-results", _RESULTS_CAPTION, ranked, system, _shown(results.values())),
+        *_warnings_table(ranked),
+    ]
+    shown = _OF_THE_CASES
     if len({result.project for result in results.values()}) == 1:
-        left_out.add("project")  # it stands in the title block
-    results_caption = (
-        "Results. Engine and cargo peak are those of the full model; the design reaction is the "
-        "larger of its and of the design procedure’s, and ",
-        Tex(r"f_\mathrm{p}"),
-        " the frequency of the pier.",
-    )
-    cases_caption = (
-        *("Cases: total mass of the truck ", Tex("m_1 + m_2"), ", speed at first touch "),
-        *(Tex("V"), " and nominal impact height ", Tex(r"z_\mathrm{n}"), "."),
-    )
-    for label, caption, of in (
-        ("tab-results", results_caption, _RESULTS),
-        ("tab-cases", cases_caption, _CASE),
-    ):
-        shown = [column for column in of if column.heading and column.name not in left_out]
-        blocks.append(_table(label, caption, rows, system, shown))
+        shown = shown[1:]  # it stands in the title block
+    blocks.append(_table("tab-cases", _CASES_CAPTION, ranked, system, shown))
     if len({result.units for result in results.values()}) > 1:
-        blocks.append(Paragraph("The reports are not all in the same units; this table is in SI."))
+        blocks.append(
+            Paragraph("The reports are not all in the same units; this summary is in SI.")
+        )
     blocks.append(
         Paragraph(
             (
                 "The report of each case says what its values rest on, and its assumptions and "
-                "limits. The same values with all their digits are in ",
+                "limits. The same values, a row for each case, are in ",
                 Code("summary.csv"),
                 f". Made by pierimpact {pierimpact.__version__}.",
             )
@@ -134,19 +152,67 @@ def summary_blocks(rows: Sequence[Row]) -> list[Block]:
     return blocks
 
 
+_RESULTS_CAPTION = (
+    "Results, the worst case first: by the larger utilisation and, of cases without a resistance, "
+    "by the code ratio. Design reaction, with the reactions that 5 and 95 % of trucks of the given "
+    "spread stay below; largest shear ",
+    *(Tex("V"), " and moment ", Tex("M"), " anywhere on the column, by the column as a beam or "),
+    *("under the static reaction, and over their resistances ", Tex(r"V_\mathrm{R}"), " and "),
+    *(Tex(r"M_\mathrm{R}"), "; code ratio: largest 25 ms average of the contact force over the "),
+    "force of AASHTO LRFD, which is such an average.",
+)
+_CASES_CAPTION = (
+    *("Cases: total mass of the truck ", Tex("m_1 + m_2"), ", speed at first touch ", Tex("V")),
+    *(", nominal impact height ", Tex(r"z_\mathrm{n}"), " and frequency of the pier "),
+    *(Tex(r"f_\mathrm{p}"), "; engine and cargo peak of the full model."),
+)
+
+
+def _weight(result: Results) -> tuple[float, float, float]:
+    """Return what a case is ranked by, the worst largest."""
+    utilisation = max(result.utilisations.values(), default=-1.0)  # below any, numerical
+    return utilisation, result.code_ratio or 0.0, result.design_reaction
+
+
+def _shown(results: Iterable[Results]) -> list[_Column]:
+    """Return the columns of the results that have a value in any case."""
+    checked = {check for result in results for check in result.utilisations}
+    left_out = {f"utilisation in {check}" for check in CHECKS if check not in checked}
+    if not checked:
+        left_out.add("resistance")
+    return [column for column in _OF_THE_TABLE if column.name not in left_out]
+
+
+def _warnings_table(ranked: Sequence[Row]) -> Iterator[Block]:
+    """Yield the warnings of the cases as a table, those that all have in common first."""
+    warnings = [_warnings(row) for row in ranked]
+    common = [text for text in warnings[0] if all(text in own for own in warnings)]
+    if len(ranked) == 1:
+        common = []
+    rows: list[list[Inline]] = [["all cases", text] for text in common]
+    for row, own in zip(ranked, warnings, strict=True):
+        rows += [[_link(row.name), text] for text in own if text not in common]
+    if rows:
+        yield Table(
+            label="tab-warnings",
+            caption="Warnings, by case in the same order, the weightiest of each first.",
+            columns=columns("Case", wide("Warning")),
+            rows=rows,
+        )
+
+
 def summary_csv(rows: Sequence[Row]) -> str:
-    """Return the summary as comma-separated values, numbers unrounded and units in the header.
+    """Return the summary as comma-separated values, units in the header, a row for each case.
 
     Text is in quotes; none of it can be taken for a formula.
     """
     system = _system(_calculated(rows).values())
-    shown = (_Column("case"), *_CASE, *_RESULTS)
     text = io.StringIO()
     writer = csv.writer(text, quoting=csv.QUOTE_NONNUMERIC)
-    writer.writerow([column.name + column.unit(system) for column in shown])
+    writer.writerow([column.name + column.unit(system) for column in _OF_THE_CSV])
     for row in rows:
         values = _values(row, system)
-        writer.writerow([column.field(values.get(column.name), system) for column in shown])
+        writer.writerow([column.field(values.get(column.name), system) for column in _OF_THE_CSV])
     return text.getvalue()
 
 
@@ -195,59 +261,85 @@ def _title_block(results: Sequence[Results], system: str) -> Block:
 
 
 def _headline(rows: Sequence[Row], system: str) -> Block:
-    """Return how many cases there are, and the worst of them."""
+    """Return how many cases there are, how many are not as they should be, and the worst."""
     results = _calculated(rows)
-    worst = max(results, key=lambda name: results[name].design_reaction)
-    reaction = printed(results[worst].design_reaction, "force", system)
-    entries = [
-        ("Cases calculated", Printed(str(len(results)), ""), f"of {len(rows)}"),
-        ("Largest design reaction", reaction, worst),
-    ]
     ratios = [
-        (ratio, check, name)
+        (ratio, name, check)
         for name, result in results.items()
         for check, ratio in result.utilisations.items()
     ]
+    exceeding = {name for ratio, name, _ in ratios if ratio > 1.0}
+    worst = "no case gives a resistance"
     if ratios:
-        ratio, check, name = max(ratios)
-        entries.append(
-            ("Largest utilisation", Printed(rounded(ratio, 3), ""), f"{name}, in {check}")
-        )
+        ratio, name, check = max(ratios)
+        worst = f"largest utilisation {rounded(ratio, 3)}: {name}, in {check}"
+    warned = sum(bool(_warnings(row)) for row in rows if row.results is not None)
+    strongest = max(results, key=lambda name: results[name].design_reaction)
+    failed = len(rows) - len(results)
+    counts = (
+        ("Cases", len(rows), f"{len(results)} calculated"),
+        ("Exceed a resistance", len(exceeding), worst),
+        ("Without a report", failed, "reasons below" if failed else "every case has its report"),
+        ("With warnings", warned, f"of {len(results)} calculated"),
+    )
+    entries = [(label, Printed(str(count), ""), remark) for label, count, remark in counts]
+    reaction = printed(results[strongest].design_reaction, "force", system)
+    entries.append(("Largest design reaction", reaction, strongest))
+    codes = [(result.code_ratio, name) for name, result in results.items() if result.code_ratio]
+    if codes:
+        code, name = max(codes)
+        remark = f"{name}; 25 ms average over AASHTO LRFD"
+        entries.append(("Largest code ratio", Printed(rounded(code, 3), ""), remark))
     return Headline(results=entries)
 
 
 def _table(
     label: str, caption: Inline, rows: Sequence[Row], system: str, shown: Sequence[_Column]
 ) -> Table:
-    """Return a table of the calculated cases, a row each."""
-    cases = [_values(row, system) for row in rows if row.results is not None]
+    """Return a table of the calculated cases, a row each, those that exceed a resistance strong."""
+    cases = [_values(row, system) for row in rows]
     return Table(
         label=label,
         caption=caption,
         columns=columns("Case", *(column.of_table(system) for column in shown)),
         rows=[
-            [
-                Link(values["case"], f"{values['case']}.html"),
-                *(column.cell(values[column.name], system) for column in shown),
-            ]
-            for values in cases
+            [_link(row.name), *(column.cell(values[column.name], system) for column in shown)]
+            for row, values in zip(rows, cases, strict=True)
         ],
+        strong=[n for n, values in enumerate(cases) if values["resistance"] == EXCEEDED],
     )
+
+
+def _link(name: str) -> Link:
+    return Link(name, f"{name}.html")
 
 
 def _values(row: Row, system: str) -> dict[str, Any]:
     """Return the values of a case by their names, in SI; of a failure those there are."""
     result = row.results
-    values = {
-        "case": row.name,
-        "status": "not calculated" if result is None else "calculated",
-        "remarks": "; ".join((*_remarks(result, system), *row.remarks)),
-    }
     if result is None:
-        return values
-    values |= {name.replace("_", " "): value for name, value in result.model_dump().items()}
-    checks = {f"utilisation in {check}": result.utilisations.get(check) for check in _CHECKS}
-    return values | checks | {"column": column_in_words(result, system)}
+        return {"case": row.name, "status": "not calculated", "reason": "; ".join(row.remarks)}
+    values = {name.replace("_", " "): value for name, value in result.model_dump().items()}
+    values |= {f"utilisation in {check}": result.utilisations.get(check) for check in CHECKS}
+    low, high = result.band or (None, None)
+    warnings = _warnings(row)
+    return values | {
+        "case": row.name,
+        "status": "calculated",
+        "column": column_in_words(result, system),
+        "reaction, 5 % of trucks below": low,
+        "reaction, 95 % of trucks below": high,
+        "resistance": _verdict(result),
+        "number of warnings": len(warnings),
+        "warnings": "; ".join(warnings),
+    }
+
+
+def _verdict(result: Results) -> str | None:
+    """Return what comes of the resistances that a case gives."""
+    if not result.utilisations:
+        return None
+    return EXCEEDED if max(result.utilisations.values()) > 1.0 else "kept"
 
 
 def column_in_words(result: Results, system: str) -> str:
@@ -260,16 +352,7 @@ def column_in_words(result: Results, system: str) -> str:
     return f"{section}, {height} high, base {result.base}, top {result.top}"
 
 
-def _remarks(result: Results | None, system: str) -> list[str]:
-    """Return what to know before relying on a row."""
-    if result is None:
-        return []
-    remarks = [] if result.truck_status.verified else [f"truck {result.truck_status.words}"]
-    if result.assumed:
-        remarks.append(f"{result.assumed} input{'s' * (result.assumed > 1)} assumed")
-    remarks += [f"unusual {BY_KEY[key].meaning}" for key, *_ in result.unusual]
-    if not result.engine_contact:
-        remarks.append("no engine contact")
-    remarks += limits_of_the_study(result.outside, result.overlapping, system)
-    exceeded = [check for check, ratio in result.utilisations.items() if ratio > 1.0]
-    return remarks + [f"exceeds the resistance to {check}" for check in exceeded]
+def _warnings(row: Row) -> list[str]:
+    """Return what to know before relying on a case, what is least safe first."""
+    assert row.results is not None
+    return [*row.results.warnings, *row.remarks]

@@ -104,6 +104,13 @@ class Beside(Block):
 
 
 @dataclass(frozen=True)
+class Group(Block):
+    """Blocks one below the other, from one cell of a notebook."""
+
+    blocks: Sequence[Block]
+
+
+@dataclass(frozen=True)
 class Paragraph(Block):
     """A paragraph of text."""
 

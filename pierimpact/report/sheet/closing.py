@@ -9,7 +9,9 @@ import numpy as np
 import yaml
 
 import pierimpact
-from pierimpact.report.document.blocks import Block, Listing, Nomenclature, Notes
+from pierimpact.report.calculation import calculate
+from pierimpact.report.comparison import compare
+from pierimpact.report.document.blocks import Block, Group, Listing, Nomenclature, Notes
 from pierimpact.report.document.markup import Code, Inline, Piece, Ref, Tex, inline
 from pierimpact.report.document.numbered import Table, columns, wide
 from pierimpact.report.sheet.section import Section
@@ -70,6 +72,11 @@ class Closing(Section):
             ]
         )
 
+    def _shared(self) -> list[list[Inline]]:
+        """Return the row on the values that cases of a folder share."""
+        sha256 = self.case.shared_sha256
+        return [["pierimpact.toml, SHA-256", Code(sha256)]] if sha256 else []
+
     def nomenclature(self) -> Block:
         """Return every symbol of the sheet, its meaning and where it stands, by alphabet."""
         labels: dict[str, str] = {}
@@ -92,6 +99,7 @@ class Closing(Section):
             rows += [
                 ["Case file", Code(self.case_file)],
                 ["its SHA-256", Code(self.case_sha256)],
+                *self._shared(),
                 ["To repeat", Code(f"pierimpact report {self.case_file}")],
             ]
         else:
@@ -120,7 +128,20 @@ class Closing(Section):
 
     def changes(self) -> Block | None:
         """Return what changed since the case that this one supersedes; None where it has none."""
-        return None
+        earlier = self.case.superseded_file
+        if earlier is None:
+            return None
+        changes = compare(calculate(earlier.case), self.calculation)
+        against = Paragraph(
+            (
+                f"From revision {earlier.case.inputs.revision}, ",
+                Code(earlier.name),
+                ", SHA-256 ",
+                Code(earlier.sha256[:_SHORT]),
+                f"…, to revision {self.case.inputs.revision}.",
+            )
+        )
+        return Group([against, *changes.blocks()])
 
 
 def _kind(label: str) -> str:
