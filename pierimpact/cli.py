@@ -16,7 +16,8 @@ from pierimpact.units import parse
 _REPORT = """\
 Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
 the case file. Where there are more cases than one, summary.html, summary.pdf and summary.csv have
-a row for each. If a case fails, the others are still calculated; it is reported at the end.
+a row for each. If a case fails, the others are still calculated; it is reported at the end. With
+--docx, each sheet and the summary are Word documents too.
 """
 _EXIT_CODES = """\
 Exit code: 0 if every case has its report; 2 if all failures are bad input; 1 if anything else
@@ -50,7 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _fit(options)
         if options.command == "compare":
             return _compare([options.old, options.new])
-        return _report(options.cases, options.output)
+        return _report(options.cases, options.output, options.docx)
     except InputError as error:
         _complain(error)
         return 2
@@ -82,6 +83,7 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument(
         "--output", metavar="DIR", default="reports", help="folder to write to (default: reports)"
     )
+    report.add_argument("--docx", action="store_true", help="write Word documents too")
     teach = commands.add_parser(
         "teach",
         help="open the teaching notebooks",
@@ -291,17 +293,17 @@ def _compare(paths: Sequence[str]) -> int:
     return 0
 
 
-def _report(paths: Sequence[str], output: str) -> int:
+def _report(paths: Sequence[str], output: str, docx: bool) -> int:
     try:
         from pierimpact.report.batch import find_cases, write_reports
     except ModuleNotFoundError as error:
         return _needs("reports", error)
     cases = find_cases(paths)
-    batch = write_reports(cases, output)
+    batch = write_reports(cases, output, docx=docx)
     for report in batch.reports:
-        print(report.notebook, report.html, report.pdf, sep="\n")
+        print(*report.files, sep="\n")
     if batch.summary:
-        print(*batch.summary, sep="\n")
+        print(*filter(None, batch.summary), sep="\n")
     sys.stdout.flush()  # so that warnings and failures come last
     for report in batch.reports:
         for warning in report.warnings:

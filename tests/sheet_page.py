@@ -28,8 +28,8 @@ US_CASE = {
 }
 
 
-def page_of(values):
-    """Return the HTML page of the report of a case's keys and values."""
+def executed(values):
+    """Return the report's notebook of a case's keys and values, with its outputs."""
     namespace, cells = {}, []
     for index, cell in enumerate(json.loads(report_notebook().read_text("utf-8"))["cells"]):
         source = "".join(cell["source"])
@@ -47,5 +47,10 @@ def page_of(values):
             continue
         output = v4.new_output("display_data", block._repr_mimebundle_())
         cells.append(v4.new_code_cell(outputs=[output]))
-    page, _ = SheetHTMLExporter().from_notebook_node(v4.new_notebook(cells=cells))
+    return v4.new_notebook(cells=cells)
+
+
+def page_of(values):
+    """Return the HTML page of the report of a case's keys and values."""
+    page, _ = SheetHTMLExporter().from_notebook_node(executed(values))
     return page

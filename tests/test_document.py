@@ -9,6 +9,7 @@ import pypdf
 import pytest
 from nbformat import v4
 from test_report import NASTY, Text, squeezed
+from word_file import WordFile
 
 from pierimpact.report.document.blocks import (
     Contents,
@@ -22,6 +23,7 @@ from pierimpact.report.document.blocks import (
 from pierimpact.report.document.markup import Code, Link, Ref, Tex
 from pierimpact.report.document.numbered import Column, Equation, Figure, Steps, Table
 from pierimpact.report.exporters import SheetHTMLExporter, SheetPDFExporter, notebook_of
+from pierimpact.report.word import SheetWordExporter
 from pierimpact.units import Printed
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><path d="M0 0h9"/></svg>'
@@ -80,6 +82,15 @@ def test_text_is_never_markup_in_a_page_or_pdf():
     assert (
         squeezed(text.replace("\u200b", "")).count(squeezed(NASTY)) > 10
     )  # side by side, lines mix
+
+
+def test_text_is_never_markup_in_a_word_document():
+    notebook = notebook_of([block for block, _ in BLOCKS])
+    document, _ = SheetWordExporter().from_notebook_node(notebook)
+    words = WordFile(document)
+    assert squeezed(words.text).count(squeezed(NASTY)) == sum(count for _, count in BLOCKS)
+    (drawing,) = words.all("body", "wp:docPr")
+    assert squeezed(drawing.get("descr")) == squeezed(NASTY)
 
 
 @pytest.mark.parametrize(("block", "count"), BLOCKS)

@@ -46,6 +46,7 @@ class Summary(NamedTuple):
     html: Path
     pdf: Path
     csv: Path
+    docx: Path | None = None
 
 
 class Batch(NamedTuple):
@@ -89,7 +90,11 @@ def find_cases(paths: Iterable[str | Path]) -> list[Path]:
 
 
 def write_reports(
-    cases: Sequence[Path], output_dir: str | Path = "reports", *, progress: bool = True
+    cases: Sequence[Path],
+    output_dir: str | Path = "reports",
+    *,
+    docx: bool = False,
+    progress: bool = True,
 ) -> Batch:
     """Write the report of each case and, of more than one, summary.html, .pdf and .csv.
 
@@ -102,6 +107,8 @@ def write_reports(
         Case files, from `find_cases`.
     output_dir : str or Path, optional
         Folder to write to; created if it does not exist.
+    docx : bool, optional
+        Whether to write each sheet, and the summary, as a Word document too.
     progress : bool, optional
         Whether to show a progress bar if the output is a terminal.
 
@@ -113,13 +120,13 @@ def write_reports(
         When interrupted; it says how many reports were written, each of them whole.
     """
     output_dir = Path(output_dir).absolute()
-    results = _write_all(cases, output_dir, progress)
+    results = _write_all(cases, output_dir, docx, progress)
     reports = [result for result in results if isinstance(result, Report)]
     failures = [result for result in results if isinstance(result, Failure)]
     if len(cases) == 1 or not reports:
         return Batch(reports, failures, None)
     try:
-        return Batch(reports, failures, _write_summary(results, output_dir))
+        return Batch(reports, failures, _write_summary(results, output_dir, docx))
     except Exception as error:
         return Batch(reports, failures, None, f"the summary: {_line(reason_of(error))}")
 
@@ -143,9 +150,11 @@ class _Stopped(BaseException):
     """Ends a report in progress: not an error of its own, and so not kept as one."""
 
 
-def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[Report | Failure]:
+def _write_all(
+    cases: Sequence[Path], output_dir: Path, docx: bool, progress: bool
+) -> list[Report | Failure]:
     """Return the report or failure of each case, in order."""
-    stop, lock, stages_of_each = Event(), Lock(), stages()
+    stop, lock, stages_of_each = Event(), Lock(), stages(docx)
     results: dict[Path, Report | Failure] = {}
 
     def write(case: Path) -> None:
@@ -160,7 +169,7 @@ def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[
                 left -= 1
 
         try:
-            results[case] = _write_one(case, output_dir, on_stage)
+            results[case] = _write_one(case, output_dir, docx, on_stage)
         finally:
             with lock:
                 bar.update(left)
@@ -193,10 +202,12 @@ def _write_all(cases: Sequence[Path], output_dir: Path, progress: bool) -> list[
     return [results[case] for case in cases]
 
 
-def _write_one(case: Path, output_dir: Path, on_stage: Callable[[], object]) -> Report | Failure:
+def _write_one(
+    case: Path, output_dir: Path, docx: bool, on_stage: Callable[[], object]
+) -> Report | Failure:
     """Return the report or failure of a case."""
     try:
-        return write_report(case, output_dir, on_stage=on_stage)
+        return write_report(case, output_dir, docx=docx, on_stage=on_stage)
     except OutputError:
         raise  # it is the same for all cases
     except (InputError, ReportError) as error:
@@ -219,7 +230,7 @@ def _line(error: Exception | str) -> str:
     return " ".join(str(error).encode("utf-8", "backslashreplace").decode().split())
 
 
-def _write_summary(results: Sequence[Report | Failure], output_dir: Path) -> Summary:
+def _write_summary(results: Sequence[Report | Failure], output_dir: Path, docx: bool) -> Summary:
     """Write the summary in all its formats, all or none."""
     notebook_of = import_module("pierimpact.report.exporters").notebook_of  # slow to import
     rows = [
@@ -229,7 +240,8 @@ def _write_summary(results: Sequence[Report | Failure], output_dir: Path) -> Sum
         for result in results
     ]
     with folder_for(output_dir, SUMMARY) as folder:
-        html, pdf, csv = (folder / f"{SUMMARY}.{ending}" for ending in ("html", "pdf", "csv"))
-        convert(notebook_of(summary_blocks(rows)), html, pdf)
+        endings = ("html", "pdf", "csv", "docx")[: None if docx else -1]
+        html, pdf, csv, *word = (folder / f"{SUMMARY}.{ending}" for ending in endings)
+        convert(notebook_of(summary_blocks(rows)), (html, pdf, *word))
         csv.write_bytes(summary_csv(rows).encode("utf-8"))
-        return Summary(*put_in_place((html, pdf, csv), output_dir))
+        return Summary(*put_in_place((html, pdf, csv, *word), output_dir))

@@ -72,7 +72,7 @@ class _SheetExporter(TemplateExporter):
             if block["type"] == "TitleBlock":
                 sheet |= block
         self._convert(blocks)
-        return sheet | {"blocks": blocks}
+        return sheet | {"blocks": blocks, "document_title": document_title(sheet)}
 
     def _blocks(self, nb: NotebookNode) -> Iterator[dict[str, Any]]:
         """Yield the data of a notebook's blocks, with its prose as blocks among them."""
@@ -91,7 +91,7 @@ class _SheetExporter(TemplateExporter):
 
     def _convert(self, blocks: list[dict[str, Any]]) -> None:
         """Add the `converted` markup to prose and mathematics, by one call of pandoc."""
-        parts = [(part, text) for part in _parts(blocks) if (text := _markdown(part)) is not None]
+        parts = [(part, text) for part in parts_of(blocks) if (text := _markdown(part)) is not None]
         converted = self._pandoc([text for _, text in parts]) if parts else []
         for (part, _), text in zip(parts, converted, strict=True):
             formula = part["type"] != "Prose"
@@ -134,14 +134,14 @@ def _with_content(blocks: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
             yield block
 
 
-def _parts(data: Any) -> Iterator[dict[str, Any]]:
+def parts_of(data: Any) -> Iterator[dict[str, Any]]:
     """Yield the parts in the data of blocks, each before what is in it."""
     if isinstance(data, dict):
         yield data
         data = list(data.values())
     if isinstance(data, list):
         for each in data:
-            yield from _parts(each)
+            yield from parts_of(each)
 
 
 def _markdown(part: dict[str, Any]) -> str | None:
@@ -224,6 +224,13 @@ def _headings(block: dict[str, Any]) -> list[tuple[str, str, str]]:
     )
 
 
+def document_title(sheet: dict[str, Any]) -> str:
+    """Return the title of a sheet's file: the element, the project and what the sheet is."""
+    entries = dict(sheet["entries"])
+    named = (entries.get("Element"), entries.get("Project"), sheet["title"])
+    return " — ".join(text for text in named if text and text != "—")
+
+
 def _title(nb: NotebookNode) -> str:
     """Return the first heading of a notebook's prose."""
     prose = "\n".join(cell.source for cell in nb.cells if cell.cell_type == "markdown")
@@ -233,7 +240,7 @@ def _title(nb: NotebookNode) -> str:
 
 def _number(blocks: list[dict[str, Any]]) -> None:
     """Add numbers to equations, figures and tables in their order, and to references to them."""
-    parts = list(_parts(blocks))
+    parts = list(parts_of(blocks))
     counts: Counter[str] = Counter()
     numbers: dict[str, str] = {}
     for part in parts:
@@ -276,7 +283,7 @@ class SheetPDFExporter(_SheetExporter):
         environment.block_start_string, environment.block_end_string = "((*", "*))"
         environment.variable_start_string, environment.variable_end_string = "((=", "=))"
         environment.comment_start_string, environment.comment_end_string = "((--", "--))"
-        environment.autoescape, environment.finalize = True, _literal
+        environment.autoescape, environment.finalize = True, typst_string
         environment.filters["breakable"] = _breakable
         environment.filters["bytes"] = _bytes
         return environment
@@ -300,7 +307,7 @@ class SheetPDFExporter(_SheetExporter):
         return pdf, resources
 
 
-def _literal(value: Any) -> Any:
+def typst_string(value: Any) -> Any:
     """Return text as a Typst string literal: nothing in it can act as markup."""
     if isinstance(value, Markup):
         return value
@@ -337,7 +344,7 @@ def compile_typst(source: str, date: str) -> tuple[bytes, str]:
     options: dict[str, Any] = {
         "timestamp": datetime.datetime.fromisoformat(f"{date}T00:00:00+00:00"),
         "pdf_standards": ["a-2a", "ua-1"],
-        "font_paths": [_font_folder()],
+        "font_paths": [font_folder()],
         "ignore_system_fonts": True,
     }
     missing = ""
@@ -372,7 +379,7 @@ def _undisplayed(error: typst.TypstError) -> str:
     )
 
 
-def _font_folder() -> Path:
+def font_folder() -> Path:
     """Return the folder of matplotlib's fonts, for the scripts that Typst's own do not have."""
     matplotlib = importlib.util.find_spec("matplotlib")
     assert matplotlib is not None

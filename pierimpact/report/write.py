@@ -1,4 +1,4 @@
-"""From a case file to its report: the executed notebook, an HTML page and a PDF."""
+"""From a case file to its report: the executed notebook, and the sheet as HTML, PDF or Word."""
 
 import contextlib
 import json
@@ -16,7 +16,12 @@ from pierimpact.files.case import read_case_file
 from pierimpact.report.results import Results
 from pierimpact.resources import PACKAGE, shipped
 
-_EXPORTERS = "pierimpact.report.exporters"  # slow to import
+#: Modules and classes of the exporters by the endings of their files; slow to import.
+_EXPORTERS = {
+    ".html": ("pierimpact.report.exporters", "SheetHTMLExporter"),
+    ".pdf": ("pierimpact.report.exporters", "SheetPDFExporter"),
+    ".docx": ("pierimpact.report.word", "SheetWordExporter"),
+}
 _KERNEL_ARGUMENTS = [
     # Lets the kernel, which starts in another folder, import this very package.
     f"--IPKernelApp.exec_lines=import sys; sys.path.insert(0, {str(PACKAGE.parent)!r})",
@@ -41,6 +46,12 @@ class Report(NamedTuple):
     pdf: Path
     warnings: list[str]
     results: Results
+    docx: Path | None = None
+
+    @property
+    def files(self) -> list[Path]:
+        """The files of the report."""
+        return [file for file in (self.notebook, self.html, self.pdf, self.docx) if file]
 
 
 def report_notebook() -> Path:
@@ -48,20 +59,21 @@ def report_notebook() -> Path:
     return shipped("notebooks") / "report.ipynb"
 
 
-def stages() -> int:
-    """Return the number of stages of a report: one for each cell, one for HTML, one for PDF."""
+def stages(docx: bool = False) -> int:
+    """Return the number of stages of a report: one for each cell, and for each document."""
     notebook = json.loads(report_notebook().read_text(encoding="utf-8"))
     kinds = [cell["cell_type"] for cell in notebook["cells"]]
-    return kinds.count("code") + 3  # papermill adds a cell
+    return kinds.count("code") + 3 + docx  # papermill adds a cell
 
 
 def write_report(
     case_path: str | Path,
     output_dir: str | Path = "reports",
     *,
+    docx: bool = False,
     on_stage: Callable[[], object] = lambda: None,
 ) -> Report:
-    """Write the report of a case file: NAME.ipynb, NAME.html and NAME.pdf, all or none.
+    """Write the report of a case file: NAME.ipynb, .html, .pdf and, if wanted, .docx, all or none.
 
     Reports may be written in several threads at a time.
 
@@ -71,6 +83,8 @@ def write_report(
         Case file; its name without ending is NAME.
     output_dir : str or Path, optional
         Folder to write to; created if it does not exist.
+    docx : bool, optional
+        Whether to write the sheet as a Word document too.
     on_stage : callable, optional
         Called after each of its `stages`, possibly in other threads; an exception from it ends
         the report.
@@ -88,12 +102,13 @@ def write_report(
     name = case_path.stem
     failed = output_dir / f"{name}.failed.ipynb"
     with folder_for(output_dir, name) as folder:
-        executed, html, pdf = (folder / f"{name}.{ending}" for ending in ("ipynb", "html", "pdf"))
+        endings = ("ipynb", "html", "pdf", "docx")[: None if docx else -1]
+        executed, *documents = (folder / f"{name}.{ending}" for ending in endings)
         try:
             notebook = _execute(parameters, case_path.parent, executed, on_stage)
             results = Results.in_notebook(notebook)
-            warnings = convert(notebook, html, pdf, on_stage)
-            executed, html, pdf = put_in_place((executed, html, pdf), output_dir)
+            warnings = convert(notebook, documents, on_stage)
+            executed, html, pdf, *word = put_in_place((executed, *documents), output_dir)
         except Exception as error:
             message = f"{case_path.name}: {reason_of(error)}"
             if executed.is_file():
@@ -101,7 +116,7 @@ def write_report(
                 message += f"; the notebook is kept as {failed}"
             raise ReportError(message) from error
     failed.unlink(missing_ok=True)
-    return Report(executed, html, pdf, warnings, results)
+    return Report(executed, html, pdf, warnings, results, *word)
 
 
 def _execute(
@@ -135,7 +150,7 @@ def _execute(
         )
 
     with ThreadPoolExecutor(1) as executor:
-        executor.submit(import_module, _EXPORTERS)  # while the kernel works
+        executor.submit(_import_exporters)  # while the kernel works
         try:
             return execute()
         except RuntimeError:
@@ -146,21 +161,30 @@ def _execute(
 
 
 def convert(
-    notebook: Any, html: Path, pdf: Path, on_stage: Callable[[], object] = lambda: None
+    notebook: Any, files: Sequence[Path], on_stage: Callable[[], object] = lambda: None
 ) -> list[str]:
-    """Write an executed notebook as HTML and as PDF; return the warnings."""
-    exporters = import_module(_EXPORTERS)
+    """Write an executed notebook to files, as what their endings say; return the warnings."""
 
-    def write(exporter: Any, file: Path) -> list[str]:
-        document, resources = exporter().from_notebook_node(notebook)
+    def write(file: Path) -> list[str]:
+        document, resources = exporter_for(file)().from_notebook_node(notebook)
         file.write_bytes(document.encode() if isinstance(document, str) else document)
         on_stage()
         return list(resources.get("warnings", []))
 
-    with ThreadPoolExecutor(2) as executor:
-        html_written = executor.submit(write, exporters.SheetHTMLExporter, html)
-        pdf_written = executor.submit(write, exporters.SheetPDFExporter, pdf)
-        return html_written.result() + pdf_written.result()
+    _import_exporters()
+    with ThreadPoolExecutor(len(files)) as executor:
+        return [warning for warnings in executor.map(write, files) for warning in warnings]
+
+
+def exporter_for(file: Path) -> Any:
+    """Return the exporter that writes files of this ending."""
+    module, name = _EXPORTERS[file.suffix]
+    return getattr(import_module(module), name)
+
+
+def _import_exporters() -> None:
+    for module, _ in _EXPORTERS.values():
+        import_module(module)
 
 
 def reason_of(error: Exception) -> str:
@@ -206,7 +230,7 @@ def import_libraries() -> None:
     by side, one thread imports everything, so that no other meets a half-imported module.
     """
     _import_papermill()
-    import_module(_EXPORTERS)
+    _import_exporters()
 
 
 def _import_papermill() -> Any:

@@ -11,7 +11,7 @@ import yaml
 import pierimpact
 from pierimpact.report.calculation import calculate
 from pierimpact.report.comparison import compare
-from pierimpact.report.document.blocks import Block, Group, Listing, Nomenclature, Notes
+from pierimpact.report.document.blocks import Block, Group, Listing, Nomenclature, Notes, Paragraph
 from pierimpact.report.document.markup import Code, Inline, Piece, Ref, Tex, inline
 from pierimpact.report.document.numbered import Table, columns, wide
 from pierimpact.report.sheet.section import Section

@@ -1,0 +1,243 @@
+"""From an executed notebook to a Word document: native equations and tables, drawings as pictures.
+
+An nbconvert exporter, as those of HTML and PDF are: `jupyter nbconvert --to pierimpact_docx
+NOTEBOOK` works too. The template writes HTML with the LaTeX of the mathematics in it, and pandoc
+turns that into a document in the styles of a reference document that is made here.
+"""
+
+import html
+import io
+import os
+import re
+import subprocess
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import typst
+from nbformat import NotebookNode
+from pypandoc import get_pandoc_path
+
+from pierimpact.report.document.markup import tex_length
+from pierimpact.report.document.numbered import CONTINUED
+from pierimpact.report.exporters import SheetHTMLExporter, font_folder, parts_of, typst_string
+
+_TYPE = "application/vnd.openxmlformats-officedocument.wordprocessingml"
+_CONTENT_TYPE = f'<Override PartName="/word/{{0}}.xml" ContentType="{_TYPE}.{{0}}+xml"/>'
+_RELATION = (
+    '<Relationship Id="{0}" Target="{0}.xml" '
+    'Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/{0}"/>'
+)
+_PAPER = {"a4": (11906, 16838), "us-letter": (12240, 15840)}  # twentieths of a point
+_SIDES = 1247 + 1134  # margins, as in the template of the page
+_DOTS = 200  # of a drawing, an inch; this project's choice
+_LETTERS = 105  # of a table's type on a line across the page; a width by eye, this project's choice
+_NO_OPERAND = "\\text{\u2003}"  # before an equals sign: LibreOffice wants something there
+
+
+class SheetWordExporter(SheetHTMLExporter):
+    """A Word document: equations, tables and headings are Word's own."""
+
+    export_from_notebook = "pierimpact: calculation sheet, Word"
+    output_mimetype = f"{_TYPE}.document"
+    template_name = "pierimpact-docx"
+    pandoc_options = ("--to=html5", "--mathjax", "--number-sections", "--shift-heading-level-by=1")
+
+    def _create_environment(self) -> Any:
+        environment = super()._create_environment()
+        environment.filters["column_widths"] = _column_widths
+        return environment
+
+    def _blocks(self, nb: NotebookNode) -> Iterator[dict[str, Any]]:
+        # Each line of a step is an equation of its own: Word then breaks one that is too long, and
+        # a reader of Word files that knows no alignment marks shows none.
+        for block in super()._blocks(nb):
+            for part in parts_of(block):
+                if part["type"] == "Equation":
+                    first, *others = part["lines"]
+                    lines = [f"{part['symbol']} = {first}"]
+                    lines += [
+                        line if line.startswith(CONTINUED) else f"{_NO_OPERAND} = {line}"
+                        for line in others
+                    ]
+                    part["tex"] = "$$\n\n$$".join(map(raised_brackets, lines))
+                elif part["type"] == "Tex":
+                    part["source"] = raised_brackets(part["source"])
+            yield block
+
+    def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
+        sheet = super()._sheet(nb)
+        sheet["size"] = _PAPER[sheet["paper"]][:: -1 if sheet["landscape"] else 1]
+        for number, part in enumerate(_drawn(sheet), 1):
+            part["png"] = f"drawing-{number}.png"
+        return sheet
+
+    def _pandoc(self, pieces: list[str]) -> list[str]:
+        # Pandoc's reader takes LaTeX in a script element for mathematics, and elsewhere not.
+        def script(math: re.Match[str]) -> str:
+            kind = "math/tex" + ("; mode=display" if math[1] == "display" else "")
+            return f'<script type="{kind}">{html.unescape(math[2])}</script>'
+
+        marked = re.compile(r'<span\s+class="math (\w+)">\\[(\[](.*?)\\[)\]]</span>', re.DOTALL)
+        return [marked.sub(script, piece) for piece in super()._pandoc(pieces)]
+
+    def from_notebook_node(
+        self, nb: NotebookNode, resources: Any = None, **kw: Any
+    ) -> tuple[Any, dict[str, Any]]:
+        """Return the notebook as a Word document, and nbconvert's resources."""
+        source, resources = super().from_notebook_node(nb, resources, **kw)
+        resources["output_extension"] = ".docx"
+        sheet = resources["sheet"]
+        folder = Path(self.extra_template_basedirs[0]) / self.template_name
+        entries = dict(sheet["entries"])
+        day = datetime.fromisoformat(f"{sheet['date']}T00:00:00").replace(tzinfo=UTC)
+        with tempfile.TemporaryDirectory() as place:
+            here = Path(place)
+            pictures = _pictures([part["svg"] for part in _drawn(sheet)], sheet["size"][0] - _SIDES)
+            for part, picture in zip(_drawn(sheet), pictures, strict=True):
+                (here / part["png"]).write_bytes(picture)
+            (here / "reference.docx").write_bytes(self._reference(sheet))
+            done = subprocess.run(
+                [
+                    *(get_pandoc_path(), "--from=html", "--to=docx", "--output=sheet.docx"),
+                    *("--shift-heading-level-by=-1", "--fail-if-warnings"),
+                    *("--reference-doc=reference.docx", f"--template={folder / 'template.xml'}"),
+                    *(f"--metadata=title:{sheet['document_title']}", "--metadata=lang:en-GB"),
+                    f"--metadata=author:{entries.get('Prepared by', '')}",
+                ],
+                input=source,
+                capture_output=True,
+                encoding="utf-8",
+                cwd=here,
+                env=os.environ | {"SOURCE_DATE_EPOCH": f"{day.timestamp():.0f}"},
+                start_new_session=True,
+            )
+            if done.returncode != 0:
+                raise RuntimeError(f"pandoc: {done.stderr.strip()}")
+            document = (here / "sheet.docx").read_bytes()
+        # Pandoc centres all equations; here they start at the left, one below the other.
+        body = _parts_in(document)["word/document.xml"].decode()
+        body = body.replace('<m:jc m:val="center" />', '<m:jc m:val="left" />')
+        return _rewritten(document, {"word/document.xml": body}), resources
+
+    def _reference(self, sheet: dict[str, Any]) -> bytes:
+        """Return pandoc's reference document with the styles, page and running text of a sheet."""
+        done = subprocess.run(
+            [get_pandoc_path(), "--print-default-data-file=reference.docx"],
+            capture_output=True,
+            check=True,
+            start_new_session=True,
+        )
+        width, height = sheet["size"]
+        entries = {label: text or "—" for label, text in sheet["entries"]}
+        parts = {
+            f"word/{name}.xml": str(
+                self.environment.get_template(f"{name}.xml.j2").render(
+                    width=width, height=height, full=width - _SIDES, entries=entries
+                )
+            )
+            for name in ("styles", "document", "header", "footer")
+        }
+        default = _parts_in(done.stdout)
+        for name, end, line in (
+            ("[Content_Types].xml", "</Types>", _CONTENT_TYPE),
+            ("word/_rels/document.xml.rels", "</Relationships>", _RELATION),
+        ):
+            lines = "".join(line.format(part) for part in ("header", "footer"))
+            parts[name] = default[name].decode().replace(end, lines + end)
+        return _rewritten(done.stdout, parts)
+
+
+def _drawn(sheet: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the parts of a sheet that are drawings."""
+    return [part for part in parts_of(sheet["blocks"]) if "svg" in part]
+
+
+def _pictures(drawings: Sequence[str], width: float) -> list[bytes]:
+    """Return drawings as PNG; the width is that of the text, in twentieths of a point."""
+    if not drawings:
+        return []
+    compiled: Any = typst.compile
+    pictures = compiled(
+        "".join(
+            f"#page(width: {width / 20}pt, height: auto, margin: 0pt, "
+            f'image(bytes({typst_string(drawing)}), format: "svg", width: 100%))'
+            for drawing in drawings
+        ).encode(),
+        format="png",
+        ppi=_DOTS,
+        font_paths=[font_folder()],
+        ignore_system_fonts=True,
+    )
+    return pictures if isinstance(pictures, list) else [pictures]
+
+
+def raised_brackets(formula: str) -> str:
+    """Return a formula in LaTeX with brackets that are raised to a power as one pair.
+
+    The power is else that of the closing bracket alone, which some readers of Word files refuse.
+    """
+    opened: list[int] = []
+    pairs = []
+    for bracket in re.finditer(r"(?:\\(?:left|right))?[()]", formula):
+        if bracket[0] == "(":
+            opened.append(bracket.start())
+        elif bracket[0] == ")" and opened:
+            start = opened.pop()
+            if formula[bracket.end() : bracket.end() + 1] == "^":
+                pairs += [(start, r"\left("), (bracket.start(), r"\right)")]
+    for place, pair in sorted(pairs, reverse=True):
+        formula = formula[:place] + pair + formula[place + 1 :]
+    return formula
+
+
+def _column_widths(table: dict[str, Any]) -> list[float]:
+    """Return the widths of a table's columns, in per cent of the page's, from what is in them."""
+    wanted = []
+    for index, column in enumerate(table["columns"]):
+        longest = max((_length(row[index]) for row in table["rows"]), default=0)
+        words = max(map(len, re.split(r"\s", _plain(column["heading"]))), default=0)
+        wanted.append(min(max(longest, words), 40) + 4)
+    wide = [column["wide"] for column in table["columns"]]
+    rest = _LETTERS - sum(w for w, takes_rest in zip(wanted, wide, strict=True) if not takes_rest)
+    if any(wide):
+        wanted = [
+            max(rest / sum(wide), 20) if takes_rest else width
+            for width, takes_rest in zip(wanted, wide, strict=True)
+        ]
+    page = max(sum(wanted), _LETTERS)
+    return [round(100.0 * width / page, 1) for width in wanted]
+
+
+def _plain(words: Any) -> str:
+    """Return about what a piece of text prints, or a run of pieces, for its length."""
+    if isinstance(words, str):
+        return words
+    if isinstance(words, list):
+        return "".join(map(_plain, words))
+    if words["type"] == "Tex":
+        return "x" * tex_length(words["source"])
+    return str(words.get("text") or f"{words['kind']} (99)")
+
+
+def _length(words: Any) -> int:
+    return len(_plain(words))
+
+
+def _parts_in(document: bytes) -> dict[str, bytes]:
+    """Return the parts of a document by their names."""
+    with zipfile.ZipFile(io.BytesIO(document)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def _rewritten(document: bytes, parts: Mapping[str, str]) -> bytes:
+    """Return a document with some of its parts replaced, or added: always the same bytes."""
+    contents = _parts_in(document) | {name: text.encode() for name, text in parts.items()}
+    written = io.BytesIO()
+    with zipfile.ZipFile(written, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in contents.items():
+            archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED)
+    return written.getvalue()
