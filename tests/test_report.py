@@ -44,6 +44,7 @@ NASTY_CASE = US_CASE | {
     "sources": {"column_width": NASTY},
     "assumed": {"density": NASTY},
     "notes": [NASTY],
+    "annexes": "all",
 }
 
 
@@ -148,13 +149,12 @@ def test_papermill_alone_gives_the_same_sheet(us, tmp_path):
             if "data" in out
         ]
 
-    (*alone, alone_from, alone_results), (*whole, whole_from, whole_results) = map(
-        sheet, (output, files.notebook)
-    )
-    assert alone == whole
-    assert alone_results == whole_results
-    assert "not recorded" in alone_from  # only papermill knows the case file
-    assert case.name in whole_from
+    alone, whole = map(sheet, (output, files.notebook))
+    others = [(mine, its) for mine, its in zip(alone, whole, strict=True) if mine != its]
+    assert len(others) == 2  # only the command knows the case file, which stands in two places
+    for mine, its in others:
+        assert "set in the notebook" in mine
+        assert case.name in its
 
 
 def test_the_notebook_carries_the_results_to_the_last_digit(made):
@@ -203,7 +203,7 @@ def requested_by(page, folder):
         check=True,
         timeout=600,
     )
-    assert "Summary" in done.stdout
+    assert "Before you rely on this" in done.stdout
     events = (event.get("params", {}) for event in json.loads(log.read_text("utf-8"))["events"])
     return {
         event["url"]
@@ -308,7 +308,7 @@ def test_numbers_of_equations_tables_and_figures(made):
         assert re.findall(rf"{kind} (\d+)\. ", sheet) == numbers
     equations = re.findall(r'class="number">\((\d+)\)<', text)
     assert equations == [str(n) for n in range(1, len(equations) + 1)]
-    assert len(equations) > 20
+    assert len(equations) > (60 if "Annex A" in text else 12)
     found = [n for n in re.findall(r"\((\d+)\)\s*$", sheet, re.MULTILINE) if n in equations]
     assert found[-1] == equations[-1] or f"({equations[-1]})" in sheet
     assert f"({len(equations) + 1})" not in sheet
@@ -333,7 +333,7 @@ def test_every_place_that_is_named_has_its_number(made):
     links = re.findall(r'<a\s+href="#([^"]+)">(.*?)</a>', text)
     assert {anchor for anchor, _ in links} <= anchors
     named = [words for anchor, words in links if anchor.startswith(("tab-", "fig-", "eq-"))]
-    assert len(named) > 80
+    assert len(named) > (80 if "Annex A" in text else 0)
     for words in named:
         assert re.fullmatch(r"(Table|Figure)&nbsp;\d+|Eq\.&nbsp;\(\d+\)", words)
     sheet = " ".join(pdf_text(made[1].pdf))
@@ -343,6 +343,8 @@ def test_every_place_that_is_named_has_its_number(made):
 def test_us_reports_print_no_metric_unit(us):
     text = Text(us[1].html.read_text("utf-8")).text
     own = text.replace("Generic 8 t single-unit truck", "")  # as the truck's file describes it
+    own = own[: own.index("The case as it was read")]  # the files are as they are
+    own = re.sub(r"\([\d.]+ \S+\)|given as [\d\u202f., A-Za-z]+|cited as [\d.]+ m", "", own)
     metric = r"(?<![\w.])\d[\d.\u202f]*\s(kN|MN|GPa|m|mm|kg|km/h|t|kN·m|MN/m|kg/m³)(?![\w/·-])"
     assert [match[0] for match in re.finditer(metric, own)] == []
 
@@ -390,7 +392,7 @@ def test_the_pdf_says_what_it_conforms_to(made):
 
 def test_assumptions_and_the_status_of_the_truck_are_in_sight(si):
     text = html.unescape(Text(si[1].html.read_text("utf-8")).text)
-    summary = text[: text.index("Basis")]
+    summary = text[: text.index("Equivalent pier")]
     assert "single-unit-8t is illustrative" in summary
     assert "not Table 1 of the source paper" in summary
     assert "not a prediction of the tests" in summary

@@ -49,7 +49,7 @@ class Closing(Section):
     def made_from(self) -> Block:
         """Return in three lines what the sheet was made from."""
         truck_file = self.case.truck_file
-        case_file: list[Piece] = ["The case was set in the notebook."]
+        case_file: list[Piece] = ["No case file: the case was set in the notebook."]
         if self.case_file and self.case_sha256:
             case_file = [
                 "Case file ",
@@ -103,7 +103,7 @@ class Closing(Section):
                 ["To repeat", Code(f"pierimpact report {self.case_file}")],
             ]
         else:
-            rows.append(["Case file", "not recorded: the parameters were set in the notebook"])
+            rows.append(["Case file", "none: the case was set in the notebook"])
         rows += [
             ["Truck file", (Code(truck_file.file_name), f", {truck_file.status.words}")],
             ["its SHA-256", Code(truck_file.sha256)],

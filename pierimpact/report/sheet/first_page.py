@@ -87,14 +87,13 @@ class FirstPage(Section):
                 "gives no resistance: nothing is checked against it."
             )
         missing = "".join(f" The {name} is not checked." for name in DEMANDS if name not in ratios)
-        failing = _listed({name: r for name, r in ratios.items() if r > 1.0})
+        failing = {name: ratio for name, ratio in ratios.items() if ratio > 1.0}
         if failing:
-            return f"The column does not hold: {failing} of the resistance.{missing}"
-        upper = self._upper
-        holds = f"The column holds this truck: {_listed(ratios)} of the resistance"
-        if upper is None:
+            return f"The column does not hold: utilisation {_listed(failing)}.{missing}"
+        holds = f"The column holds this truck: utilisation {_listed(ratios)}"
+        if self._upper is None:
             return f"{holds}, if the truck is known exactly.{missing}"
-        at_upper = {name: ratio * upper for name, ratio in ratios.items()}
+        at_upper = {name: ratio * self._upper for name, ratio in ratios.items()}
         beyond = {name: ratio for name, ratio in at_upper.items() if ratio > 1.0}
         if beyond:
             return (
@@ -179,9 +178,16 @@ class FirstPage(Section):
                 rows.append([*cells, "not given", "", "", "not checked"])
                 continue
             ratio = demand.value / resistance
-            limit = self.number(resistance, quantity, given=True)
-            upper = "" if self._upper is None else rounded(ratio * self._upper, 3)
-            rows.append([*cells, limit, rounded(ratio, 3), upper, verdict(ratio)])
+            at_upper = None if self._upper is None else ratio * self._upper
+            rows.append(
+                [
+                    *cells,
+                    self.number(resistance, quantity, given=True),
+                    rounded(ratio, 3),
+                    "" if at_upper is None else rounded(at_upper, 3),
+                    verdict(ratio, at_upper),
+                ]
+            )
         return Table(
             label="tab-utilisation",
             caption="Largest member force over its resistance, by the method that governs; and at "
@@ -257,12 +263,15 @@ class FirstPage(Section):
         return Contents() if self.case.inputs.annexes else None
 
 
-def verdict(ratio: float) -> str:
-    """Return what a utilisation means."""
-    return "within the resistance" if ratio <= 1.0 else "EXCEEDS the resistance"
+def verdict(ratio: float, at_upper: float | None) -> str:
+    """Return what a utilisation means, and that at the upper end of the band."""
+    if ratio > 1.0:
+        return "EXCEEDS the resistance"
+    if at_upper is not None and at_upper > 1.0:
+        return "within, but EXCEEDS at 95 %"
+    return "within the resistance"
 
 
 def _listed(ratios: dict[str, float]) -> str:
-    """Return names and ratios as "shear 0.71 and moment 0.86 times", empty for none."""
-    named = [f"{name} {rounded(ratio, 3)}" for name, ratio in ratios.items()]
-    return f"{' and '.join(named)} times" if named else ""
+    """Return utilisations as "0.71 in shear and 0.86 in moment"."""
+    return " and ".join(f"{rounded(ratio, 3)} in {name}" for name, ratio in ratios.items())
