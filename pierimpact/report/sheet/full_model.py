@@ -1,7 +1,7 @@
 """The collision by the full model: what it solves, its history and peaks, and the check by it."""
 
 from pierimpact.collision.history import Peak
-from pierimpact.plots.figures import draw_history
+from pierimpact.plots.history import draw_history
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Tex, in_tex
 from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
