@@ -1,18 +1,14 @@
 """The sheet of a column with steps, springs, embedment and a mass at its top."""
 
 import re
-from xml.etree import ElementTree
 
 import pytest
 import stiffness_method
-from generated_columns import arranged_columns, joints
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from generated_columns import joints
 from sheet_page import page_of
 
 from pierimpact import InputError
 from pierimpact.files.case import case_from
-from pierimpact.plots.elevation import draw_elevation
 from pierimpact.report.sheet import Sheet
 from pierimpact.report.warnings import warnings_of
 
@@ -201,10 +197,3 @@ def test_bad_input_is_one_line(change, message):
     with pytest.raises(InputError, match=re.escape(message)) as caught:
         case_from(CASE | change)
     assert "\n" not in str(caught.value)
-
-
-@settings(max_examples=15)
-@given(arranged_columns(), st.sampled_from(["SI", "US"]))
-def test_any_column_is_drawn(case, system):
-    column, impact_height = case
-    ElementTree.fromstring(draw_elevation(column.struck_at(impact_height), system))

@@ -1,18 +1,10 @@
-"""Dimensions on drawings to scale: a quantity with its symbol, and a line between two ends."""
+"""Dimensions on drawings to scale: a line between two ends, and its words."""
 
 from typing import Any
 
 from matplotlib.axes import Axes
 
 from pierimpact.plots.style import INK
-from pierimpact.symbols import SYMBOLS
-from pierimpact.units import printed
-
-
-def named(name: str, value: float, system: str) -> str:
-    """Return a value [SI] with the symbol of its name before it, as a drawing shows it."""
-    shown = str(printed(value, SYMBOLS[name].quantity, system, given=True))
-    return f"${SYMBOLS[name].latex}$ = " + shown.replace("\u202f", " ")  # which the font has not
 
 
 def draw_dimension(

@@ -4,10 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from pierimpact.collision.history import CollisionHistory
 from pierimpact.design.sensitivity import Sensitivity, Variation
 from pierimpact.pier.member_forces import MemberForceHistory, MemberForces
-from pierimpact.plots.collision import mark_peaks
 from pierimpact.plots.style import BLUE, GREY, VERMILION, logarithmic, note, sheet_figure, to_svg
 from pierimpact.units import printed, unit_of, unit_size
 
@@ -15,34 +13,6 @@ MODEL, DESIGN = "full model", "design procedure"
 #: Lines of the full model and of a closed form beside it.
 EXACT: Any = {"color": BLUE, "linewidth": 1.4}
 CLOSED: Any = {"color": VERMILION, "linewidth": 1.0, "dashes": (5, 2)}
-
-
-def draw_history(history: CollisionHistory, system: str) -> str:
-    """Draw reaction and contact force against time, with the peaks marked; return SVG.
-
-    Parameters
-    ----------
-    history : CollisionHistory
-        The collision.
-    system : {"SI", "US"}
-        Units to print in.
-    """
-    with sheet_figure(2.8, left=0.105, right=0.99, bottom=0.16, top=0.97) as figure:
-        axes = figure.add_subplot()
-        time = history.time / unit_size("time", system)
-        force = history.contact_force / unit_size("force", system)
-        reaction = history.reaction / unit_size("force", system)
-        axes.axhline(0.0, color="black", linewidth=0.5)
-        axes.plot(time, force, color=GREY, linewidth=0.8)
-        axes.plot(time, reaction, color=BLUE, linewidth=1.5)
-        axes.set(
-            xlabel=f"Time after first touch [{unit_of('time', system)}]",
-            ylabel=f"Force [{unit_of('force', system)}]",
-            xlim=(0.0, float(time[-1])),
-        )
-        colours = dict.fromkeys(("engine", "cargo"), VERMILION)
-        mark_peaks(axes, history, system, unit_size("force", system), colours)
-        return to_svg(figure)
 
 
 def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:

@@ -3,12 +3,15 @@
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
 from pierimpact.pier.sections import RegularPolygonSection, Section
-from pierimpact.plots.dimension import draw_dimension, named
+from pierimpact.plots.dimension import draw_dimension
+from pierimpact.plots.labels import Label, place
 from pierimpact.plots.style import INK, MUTED, VERMILION, sheet_figure, to_svg
+from pierimpact.plots.words import named
 
 _CONCRETE, _STEEL = "#dcd8d0", "#5b7083"
 
@@ -23,46 +26,61 @@ def draw_section(section: Section, system: str) -> str:
     system : {"SI", "US"}
         Units to print in.
     """
-    values, depth = section.values, section.extent
     outer = outline(section)
-    width = float(np.ptp(outer[:, 1]))
-    unit = 0.1 * max(depth, width)  # of all gaps
+    unit = 0.1 * float(max(section.extent, np.ptp(outer[:, 1])))  # of all gaps
     with sheet_figure(2.3, left=0.0, right=1.0, bottom=0.0, top=1.0) as figure:
         axes = figure.add_subplot()
         axes.set_axis_off()
-        axes.set(aspect="equal")
-        edge: Any = {"edgecolor": INK, "linewidth": 0.7}
-        filled = "Am" in values
-        axes.add_artist(Polygon(outer, facecolor=_STEEL if filled else _CONCRETE, **edge))
-        if "t" in values:
-            inner = outline(section, values["t"])
-            axes.add_artist(Polygon(inner, facecolor=_CONCRETE if filled else "white", **edge))
-            wall = 0.5 * width - 0.5 * values["t"]
-            place = (0.5 * wall, 0.75**0.5 * wall) if "D" in values else (0.25 * depth, wall)
-            line: Any = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkB": 0.0}
-            words = 0.5 * depth + unit, 0.5 * width + 0.6 * unit
-            axes.annotate(
-                named("t", values["t"], system), place, words, arrowprops=line, va="center"
-            )
-            axes.plot(*place, ".", color="white" if filled else INK, markersize=2.5)
-        along = next(name for name in ("D", "h", "Df") if name in values)
-        half, below = 0.5 * values[along], -0.5 * width - unit
-        label = named(along, values[along], system)
-        draw_dimension(axes, (-half, below), (half, below), label, "below")
-        if "b" in values:
-            half, beside = 0.5 * values["b"], 0.5 * depth + unit
-            draw_dimension(axes, (beside, -half), (beside, half), named("b", values["b"], system))
-        if isinstance(section, RegularPolygonSection) and section.sides % 2:
-            inscribed = 0.5 * section.across_flats
-            dotted: Any = {"fill": False, "edgecolor": MUTED, "linestyle": ":", "linewidth": 0.8}
-            axes.add_artist(Circle((0.0, 0.0), inscribed, **dotted))
-        face = float(outer[:, 0].min())
-        arrow = {"arrowstyle": "-|>", "color": VERMILION, "linewidth": 1.6, "shrinkB": 0.0}
-        axes.annotate("", (face - 0.3 * unit, 0.0), (face - 4.0 * unit, 0.0), arrowprops=arrow)
-        axes.text(face - 2.2 * unit, 0.4 * unit, "travel", ha="center", color=VERMILION)
-        axes.set_xlim(face - 5.0 * unit, 0.5 * depth + 5.0 * unit)
-        axes.set_ylim(-0.5 * width - 3.0 * unit, 0.5 * width + 1.2 * unit)
+        axes.set_xlim(outer[:, 0].min() - 6.0 * unit, outer[:, 0].max() + 6.0 * unit)
+        axes.set_ylim(outer[:, 1].min() - 3.0 * unit, outer[:, 1].max() + 2.0 * unit)
+        axes.set(aspect="equal", adjustable="datalim")
+        place(figure, add_section(axes, section, unit, system))
         return to_svg(figure)
+
+
+def add_section(axes: Axes, section: Section, unit: float, system: str) -> list[Label]:
+    """Draw a section about zero, its dimensions and the direction of travel; return its labels.
+
+    Parameters
+    ----------
+    axes : Axes
+        Axes in metres.
+    section : Section
+        A section with an outline: any but a `FreeSection`.
+    unit : float
+        Size of gaps [m].
+    system : {"SI", "US"}
+        Units to print in.
+    """
+    values, depth, outer = section.values, section.extent, outline(section)
+    width = float(np.ptp(outer[:, 1]))
+    edge: Any = {"edgecolor": INK, "linewidth": 0.7}
+    filled, labels = "Am" in values, []
+    axes.add_artist(Polygon(outer, facecolor=_STEEL if filled else _CONCRETE, **edge))
+    if "t" in values:
+        inner = outline(section, values["t"])
+        axes.add_artist(Polygon(inner, facecolor=_CONCRETE if filled else "white", **edge))
+        wall = 0.5 * width - 0.5 * values["t"]
+        point = (0.5 * wall, 0.75**0.5 * wall) if "D" in values else (0.25 * depth, wall)
+        axes.plot(*point, ".", color="white" if filled else INK, markersize=2.5)
+        labels.append(Label(axes, named("t", values["t"], system), point))
+    along = next(name for name in ("D", "h", "Df") if name in values)
+    half, below = 0.5 * values[along], -0.5 * width - unit
+    draw_dimension(axes, (-half, below), (half, below), "")
+    labels.insert(0, Label(axes, named(along, values[along], system), (0.0, below), (0.0, -1.0)))
+    if "b" in values:
+        half, beside = 0.5 * values["b"], 0.5 * depth + unit
+        draw_dimension(axes, (beside, -half), (beside, half), "")
+        labels.insert(0, Label(axes, named("b", values["b"], system), (beside, 0.0), (1.0, 0.0)))
+    if isinstance(section, RegularPolygonSection) and section.sides % 2:
+        inscribed = 0.5 * section.across_flats
+        dotted: Any = {"fill": False, "edgecolor": MUTED, "linestyle": ":", "linewidth": 0.8}
+        axes.add_artist(Circle((0.0, 0.0), inscribed, **dotted))
+    face = float(outer[:, 0].min())
+    arrow = {"arrowstyle": "-|>", "color": VERMILION, "linewidth": 1.6, "shrinkB": 0.0}
+    axes.annotate("", (face - 0.3 * unit, 0.0), (face - 4.0 * unit, 0.0), arrowprops=arrow)
+    middle, colour = (face - 2.2 * unit, 0.0), {"color": VERMILION}
+    return [*labels, Label(axes, "travel", middle, (0.0, 1.0), colour)]
 
 
 def outline(section: Section, inset: float = 0.0) -> NDArray[np.float64]:

@@ -40,6 +40,23 @@ _SHEET: Any = {
     "svg.hashsalt": "pierimpact",  # the same drawing gives the same bytes
 }
 
+# Of figures that are printed at their natural size.
+_PAGE: Any = {
+    "font.size": 8.0,
+    "axes.labelsize": 8.0,
+    "axes.titlesize": 8.0,
+    "axes.labelpad": 2.0,
+    "axes.titlepad": 3.0,
+    "xtick.major.size": 2.5,
+    "ytick.major.size": 2.5,
+    "xtick.major.pad": 2.0,
+    "ytick.major.pad": 2.0,
+    "text.hinting": "none",
+}
+MILLIMETRES = 25.4  # in an inch
+#: Width of the text of the sheet [mm].
+TEXT_WIDTH = 168.0
+
 #: Ticks of an axis of frequencies [Hz].
 FREQUENCY_TICKS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
@@ -93,6 +110,30 @@ def sheet_figure(height: float, **margins: float) -> Iterator[Figure]:
     with rc_context(_SHEET):
         figure = Figure(figsize=(6.5, height))
         figure.subplots_adjust(**margins)
+        yield figure
+
+
+@contextmanager
+def page_figure(
+    width: float,
+    height: float,
+    *,
+    left: float = 0.0,
+    right: float = 0.0,
+    bottom: float = 0.0,
+    top: float = 0.0,
+    **spacing: Any,
+) -> Iterator[Figure]:
+    """Give a figure of the sheet with its size and its margins in millimetres."""
+    with rc_context(_SHEET | _PAGE):
+        figure = Figure(figsize=(width / MILLIMETRES, height / MILLIMETRES))
+        figure.subplots_adjust(
+            left=left / width,
+            right=1.0 - right / width,
+            bottom=bottom / height,
+            top=1.0 - top / height,
+            **spacing,
+        )
         yield figure
 
 

@@ -14,7 +14,7 @@ from pierimpact.files.case import CONCRETE_FACTORS
 from pierimpact.pier.arrangement import Part
 from pierimpact.pier.equivalent import vibration
 from pierimpact.pier.static import Piece
-from pierimpact.plots.stub import draw_shape
+from pierimpact.plots.shape import draw_shape_function
 from pierimpact.report.document.blocks import Beside, Block, Paragraph
 from pierimpact.report.document.markup import Inline, Ref, Tex, in_tex
 from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
@@ -170,7 +170,7 @@ class EquivalentPierSteps(PierSection):
             caption=("Shape function ", Tex(SYMBOLS["phi"].latex), ", 1 at the impact."),
             alt=f"Shape function over the height of the column: 1 at the impact, at most "
             f"{rounded(largest, 3)}.",
-            svg=draw_shape(struck, self.system),
+            svg=draw_shape_function(struck, self.system),
         )
 
     @property

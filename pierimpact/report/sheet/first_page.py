@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from pierimpact.design.codes import aashto_lrfd
-from pierimpact.plots.stub import draw_situation
+from pierimpact.plots.situation import draw_situation
 from pierimpact.report.document.blocks import (
     Block,
     Contents,

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pierimpact.collision.history import Peak
-from pierimpact.plots.stub import draw_history
+from pierimpact.plots.history import draw_history
 from pierimpact.report.document.blocks import Beside, Block
 from pierimpact.report.document.markup import Inline, Tex, in_tex
 from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal

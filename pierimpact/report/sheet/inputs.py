@@ -4,7 +4,7 @@ import re
 from typing import Any
 
 from pierimpact.files.inputs import PHYSICAL_KEYS, SectionInputs
-from pierimpact.plots.stub import draw_crush_curves
+from pierimpact.plots.crush import draw_crush_curves
 from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.markup import Inline, Tex
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide

@@ -1,0 +1,106 @@
+"""Labels that find their places: as near as may be to what they name, where nothing is drawn.
+
+A figure is drawn once without them. A label may stand wherever its box covers nothing but white
+and pale areas; of these places it takes the one nearest to its point, with a thin line to it where
+that is not near. What it covers is taken for the labels that come after it.
+"""
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from pierimpact.plots.style import INK
+
+_FINE = 2  # picture elements a point
+_PAD, _NEAR = 1.5, 7.0  # left free around a label; distance beyond which it has a line [pt]
+_PALE = 200.0  # of 255: areas as bright as this may lie under a label
+_SIDE = 0.15  # what a place on the wrong side costs, over what distance costs
+_LINE, _LABEL = 2, 30  # what a line to a label costs where it crosses what is drawn, or a label
+_TRIED = 200  # places whose lines are looked at
+
+
+class Label(NamedTuple):
+    """Words for a point of a figure, or for whichever of several is the best."""
+
+    axes: Axes
+    words: str
+    points: ArrayLike  #: shape (2,) or (n, 2), in the coordinates of the axes' data
+    toward: tuple[float, float] = (1.0, 1.0)  #: on which side of the point it best stands
+    options: Mapping[str, Any] = MappingProxyType({})  #: of the text
+
+
+def place(figure: Figure, labels: Sequence[Label]) -> None:
+    """Write labels where nothing else is, the first of them first."""
+    figure.set_dpi(72.0 * _FINE)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()  # type: ignore[no-untyped-call]
+    pixels = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
+    pixels = pixels[::-1, :, :3]  # from below, as coordinates are
+    ink = pixels @ np.array([0.299, 0.587, 0.114]) < _PALE  # by their luminance
+    taken = np.where(ink, _LINE, 0)
+    for label in labels:
+        _write(label, taken)
+
+
+def _write(label: Label, taken: NDArray[np.int_]) -> None:
+    """Write one label, and note what it and its line cover."""
+    axes, points = label.axes, np.atleast_2d(np.asarray(label.points, dtype=float))
+    text = axes.text(points[0, 0], points[0, 1], label.words, **label.options)
+    extent = text.get_window_extent()
+    text.remove()
+    size, pad = np.array([extent.width, extent.height]), _PAD * _FINE
+    corners = pad + _places(taken > 0, np.ceil(size + 2.0 * pad).astype(int), axes)
+    ends = np.clip(axes.transData.transform(points), 0.0, np.array(taken.T.shape) - 1.0)
+    nearest = np.clip(ends[:, None], corners, corners + size)
+    gap = np.hypot(*np.moveaxis(ends[:, None] - nearest, -1, 0))
+    wanted = ends + 0.5 * size * np.array(label.toward)
+    aside = np.hypot(*np.moveaxis(corners + 0.5 * size - wanted[:, None], -1, 0))
+    which = np.argmin(gap + _SIDE * aside, axis=0)
+    own = which, np.arange(len(corners))
+    gap, aside, nearest, end = gap[own], aside[own], nearest[own], ends[which]
+    cost = gap + _SIDE * aside
+    tried = np.argsort(cost, kind="stable")[:_TRIED]
+    far = gap > _NEAR * _FINE
+    crossed = taken[_line(nearest[tried], end[tried])].sum(axis=0)
+    best = tried[np.argmin(cost[tried] + np.where(far[tried], crossed, 0))]
+    line: dict[str, Any] = {}
+    if far[best]:
+        style = {"arrowstyle": "-", "color": INK, "linewidth": 0.5, "shrinkA": 0.5, "shrinkB": 2.0}
+        line["arrowprops"] = style | {"relpos": tuple((nearest[best] - corners[best]) / size)}
+        taken[_line(nearest[best], end[best])] = _LINE
+    axes.annotate(
+        label.words,
+        tuple(points[which[best]]),
+        tuple((corners[best] - end[best]) / _FINE),
+        textcoords="offset points",
+        annotation_clip=False,
+        **{"ha": "left", "va": "bottom", **line, **label.options},
+    )
+    (left, bottom), (right, top) = corners[best].astype(int), (corners[best] + size).astype(int) + 1
+    taken[bottom:top, left:right] = _LABEL
+
+
+def _places(taken: NDArray[np.bool_], size: NDArray[np.int_], axes: Axes) -> NDArray[np.int_]:
+    """Return where a box may have its lower left corner: where it covers least, shape (n, 2)."""
+    sums = np.pad(np.cumsum(np.cumsum(taken, axis=0), axis=1), ((1, 0), (1, 0)))
+    width, height = size
+    left, bottom = (max(int(np.ceil(end)), 0) for end in axes.bbox.p0)
+    right, top = (min(int(end), n) for end, n in zip(axes.bbox.p1, taken.T.shape, strict=True))
+    x = np.arange(left, max(right - width, left) + 1, _FINE)
+    y = np.arange(bottom, max(top - height, bottom) + 1, _FINE)[:, None]
+    covered = sums[y + height, x + width] - sums[y, x + width] - sums[y + height, x] + sums[y, x]
+    rows, columns = np.nonzero(covered == covered.min())
+    return np.stack((x[columns], y[rows, 0]), axis=-1)
+
+
+def _line(start: NDArray[np.float64], end: NDArray[np.float64]) -> tuple[NDArray[np.int_], ...]:
+    """Return rows and columns of the picture along a line, or along several side by side."""
+    share = np.linspace(0.0, 1.0, 60).reshape(-1, *[1] * start.ndim)
+    x, y = np.moveaxis((start + share * (end - start)).astype(int), -1, 0)
+    return y, x

@@ -1,0 +1,21 @@
+"""Values as figures print them, in the characters that their font has."""
+
+import re
+
+from pierimpact.symbols import SYMBOLS
+from pierimpact.units import printed
+
+_POWER = re.compile("×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
+_PLAIN = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+
+
+def shown(value: float, quantity: str, system: str, *, given: bool = False) -> str:
+    """Return a value [SI] with its unit; arguments as in `units.printed`."""
+    text = str(printed(value, quantity, system, given=given)).replace("\u202f", " ")
+    return _POWER.sub(lambda power: f"×$10^{{{power[1].translate(_PLAIN)}}}$", text)
+
+
+def named(name: str, value: float, system: str) -> str:
+    """Return a value [SI] with the symbol of its name before it, as a drawing shows it."""
+    symbol = SYMBOLS[name]
+    return f"${symbol.latex}$ = {shown(value, symbol.quantity, system, given=True)}"
