@@ -4,6 +4,7 @@ Found from the figure's artists, by their outlines, once they have been laid out
 """
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import Collection
 from matplotlib.colors import to_rgba
@@ -19,6 +20,7 @@ SMALLEST = 7.5  # of words [pt]
 SLACK, DARK = 0.6, 0.6
 
 
+@rc_context({"text.hinting": "none"})  # as in SVG
 def collisions(figure):
     """Return a line for each collision of a figure, and for each word that is too small to read."""
     figure.set_dpi(144.0)

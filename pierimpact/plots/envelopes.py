@@ -11,7 +11,7 @@ from pierimpact.pier.column import PierColumn
 from pierimpact.pier.member_forces import MemberForceHistory, MemberForces
 from pierimpact.plots.ends import end_labels, mark_ends
 from pierimpact.plots.labels import Label, place
-from pierimpact.plots.style import BLUE, INK, TEXT_WIDTH, VERMILION, page_figure, to_svg
+from pierimpact.plots.style import BLUE, INK, TEXT_WIDTH, VERMILION, page_figure, to_svg, trim_ticks
 from pierimpact.plots.words import named, shown
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import unit_of, unit_size
@@ -77,7 +77,8 @@ def draw_envelopes(
             found = _draw_beam(axes, impacts, quantity, system)
             found += _draw_static(axes, impacts, quantity, system)
             labels += _draw_resistance(axes, resistance, quantity, system) + found
-            axes.locator_params(axis="x", nbins=6, prune="both")
+            axes.locator_params(axis="x", nbins=6)
+            trim_ticks(axes, 0.06)
             if column is not None:
                 mark_ends(axes, column, size)
         first = panels[0]

@@ -22,7 +22,7 @@ _PAD, _NEAR = 1.5, 7.0  # left free around a label; distance beyond which it has
 _PALE = 200.0  # of 255: areas as bright as this may lie under a label
 _SIDE = 0.15  # what a place on the wrong side costs, over what distance costs
 _LINE, _LABEL = 2, 30  # what a line to a label costs where it crosses what is drawn, or a label
-_TRIED = 200  # places whose lines are looked at
+_TRIED = 200  # of the nearest places, and of all, whose lines are looked at
 
 
 class Label(NamedTuple):
@@ -65,7 +65,8 @@ def _write(label: Label, taken: NDArray[np.int_]) -> None:
     own = which, np.arange(len(corners))
     gap, aside, nearest, end = gap[own], aside[own], nearest[own], ends[which]
     cost = gap + _SIDE * aside
-    tried = np.argsort(cost, kind="stable")[:_TRIED]
+    order = np.argsort(cost, kind="stable")
+    tried = np.concatenate((order[:_TRIED], order[:: len(order) // _TRIED + 1]))
     far = gap > _NEAR * _FINE
     crossed = taken[_line(nearest[tried], end[tried])].sum(axis=0)
     best = tried[np.argmin(cost[tried] + np.where(far[tried], crossed, 0))]

@@ -198,6 +198,24 @@ def note(
     axes.annotate(words, place, xytext=offset, textcoords="offset points", **options)
 
 
+def trim_ticks(axes: Axes, margin: float, lowest: float = -math.inf) -> None:
+    """Leave only those ticks of the horizontal axis whose numbers stay beside the axes.
+
+    Parameters
+    ----------
+    axes : Axes
+        The axes, with their limits set.
+    margin : float
+        What is left free of them at either end, over the width of the axes [-].
+    lowest : float, optional
+        The smallest number that there may be.
+    """
+    (low, high), ticks = axes.get_xlim(), axes.get_xticks()
+    edge = margin * (high - low)
+    inside = (ticks >= lowest) & (ticks > low + edge) & (ticks < high - edge)
+    axes.set_xticks(ticks[inside])
+
+
 def name_rows(axes: Axes, names: Sequence[str]) -> None:
     """Name the rows of horizontal bars, from above, with a grid across them."""
     axes.set_yticks(range(len(names)), names)

@@ -10,7 +10,7 @@ from pierimpact.collision.parameters import Collision
 from pierimpact.design.band import ReactionBand
 from pierimpact.design.sensitivity import SHARES, Sensitivity, Variation
 from pierimpact.plots.bars import End, name_bars, write_ends
-from pierimpact.plots.style import BLUE, INK, SKY, TEXT_WIDTH, page_figure, to_svg
+from pierimpact.plots.style import BLUE, INK, SKY, TEXT_WIDTH, page_figure, to_svg, trim_ticks
 from pierimpact.plots.words import shown
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import unit_of, unit_size
@@ -72,11 +72,7 @@ def draw_tornado(sensitivity: Sensitivity, band: ReactionBand, reaction: float, 
         name_bars(axes, [change.name for change in changes])
         axes.axvline(nominal, color=INK, linewidth=1.0)
         write_ends(axes, ends or [End(0.0, nominal, "")])
-        low, high = axes.get_xlim()
-        edge = 0.04 * (high - low)
-        ticks = axes.get_xticks()
-        inside = (ticks >= 0.0) & (ticks > low + edge) & (ticks < high - edge)
-        axes.set_xticks(ticks[inside])
+        trim_ticks(axes, 0.04, lowest=0.0)
         axes.set_xlabel(f"Governing reaction [{unit_of('force', system)}]")
         words = f"this case {shown(reaction, 'force', system)}"
         axes.annotate(
