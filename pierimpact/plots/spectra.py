@@ -82,7 +82,7 @@ def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
         pier = f"this pier, {shown(frequency, 'frequency', system)}"
         upright = np.linspace(*axes.get_ylim(), 12)
         points = np.stack((np.full(12, frequency), upright), axis=-1)
-        place(figure, [*values, Label(axes, pier, points), *names, *governs])
+        place(figure, [*values, *governs, Label(axes, pier, points), *names])
         return to_svg(figure)
 
 
