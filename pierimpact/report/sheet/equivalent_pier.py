@@ -353,8 +353,8 @@ class EquivalentPierSteps(PierSection):
                     name=SYMBOLS["kp"].heading,
                     symbol=SYMBOLS["kp"].latex,
                     lines=[
-                        rf"\frac{{1}}{{{SYMBOLS['xn'].latex}}}",
-                        rf"\frac{{1}}{{{flexibility}}} = {stiffness}",
+                        rf"\frac{{1}}{{{SYMBOLS['xn'].latex}}} = \frac{{1}}{{{flexibility}}}"
+                        f" = {stiffness}"
                     ],
                     source="Eq. 3 of the source paper",
                 ),
