@@ -71,47 +71,38 @@ class Comparison:
 
     def text(self) -> str:
         """Return the changes as tables in plain text."""
-        parts = [
-            *(_table_in_text(heading, changes) for heading, changes in self._tables() if changes),
-            *(
-                "\n".join([heading, *(_item(text) for text in warnings)])
-                for heading, warnings in self._warnings()
-            ),
-        ]
+        parts = [_table_in_text(heading, changes) for heading, changes in self._tables()]
         if not self.changed:
             parts.append("Nothing changed: the same inputs and the same results.")
         elif not self.results:
             parts.append("No result changed.")
-        if self.retyped:
-            parts.append("\n".join(map(_item, self._retyped())))
+        for heading, texts in self._lists():
+            parts.append("\n".join([heading, *map(_item, texts)]))
         return "\n\n".join(parts)
 
     def blocks(self) -> list[Block]:
         """Return the changes as the blocks of a sheet."""
+        blocks = [_table(heading, changes) for heading, changes in self._tables()]
         if not self.changed:
-            blocks: list[Block] = [Paragraph("Neither inputs nor results changed.")]
-        else:
-            blocks = [_table(heading, changes) for heading, changes in self._tables() if changes]
-            if not self.results:
-                blocks.append(Paragraph("No result changed."))
-        for heading, warnings in self._warnings():
-            blocks += [Paragraph(f"{heading}:"), Notes(warnings)]
-        return [*blocks, Notes(self._retyped())] if self.retyped else blocks
+            blocks.append(Paragraph("Neither inputs nor results changed."))
+        elif not self.results:
+            blocks.append(Paragraph("No result changed."))
+        for heading, texts in self._lists():
+            blocks += [Paragraph(f"{heading}:"), Notes(texts)]
+        return blocks
 
     def _tables(self) -> list[tuple[str, Sequence[Change]]]:
-        return [("Inputs", self.inputs), ("Results", self.results)]
+        tables = [("Inputs", self.inputs), ("Results", self.results)]
+        return [(heading, changes) for heading, changes in tables if changes]
 
-    def _warnings(self) -> Iterator[tuple[str, Sequence[str]]]:
-        if self.came:
-            yield "Warnings that came", self.came
-        if self.went:
-            yield "Warnings that went", self.went
-
-    def _retyped(self) -> list[str]:
-        return [
-            f"{name}: {old} before, {new} now, the same value."
-            for name, old, new, _ in self.retyped
+    def _lists(self) -> list[tuple[str, Sequence[str]]]:
+        retyped = [f"{name}: {old} before, {new} now." for name, old, new, _ in self.retyped]
+        lists = [
+            ("Warnings that came", self.came),
+            ("Warnings that went", self.went),
+            ("Typed in another way, the same value", retyped),
         ]
+        return [(heading, texts) for heading, texts in lists if texts]
 
 
 def compare(old: Calculation, new: Calculation) -> Comparison:
