@@ -14,13 +14,14 @@ from typing import Any, NamedTuple
 from pierimpact.files.case import Case
 from pierimpact.files.inputs import KEYS, Inputs, SectionInputs
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.document.blocks import Block, Notes, Paragraph
+from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
 from pierimpact.report.results import Results
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import printed, rounded
 
 NOT_THERE = "—"
+_RETYPED = "The same value, typed in another way"
 # Keys that are no values of their own, and that which says what this case is compared with.
 _APART = ("assumed", "sources", "notes", "revisions", "steps", "truck", "supersedes")
 _WIDEST = (36, 26, 26, 9)  # columns of the table in plain text [characters]
@@ -72,37 +73,49 @@ class Comparison:
     def text(self) -> str:
         """Return the changes as tables in plain text."""
         parts = [_table_in_text(heading, changes) for heading, changes in self._tables()]
-        if not self.changed:
-            parts.append("Nothing changed: the same inputs and the same results.")
-        elif not self.results:
-            parts.append("No result changed.")
-        for heading, texts in self._lists():
-            parts.append("\n".join([heading, *map(_item, texts)]))
+        if self._sentence:
+            parts.append(self._sentence)
+        lists = {
+            "Warnings that came": self.came,
+            "Warnings that went": self.went,
+            _RETYPED: self._retyped(),
+        }
+        for heading, texts in lists.items():
+            if texts:
+                parts.append("\n".join([heading, *map(_item, texts)]))
         return "\n\n".join(parts)
 
     def blocks(self) -> list[Block]:
         """Return the changes as the blocks of a sheet."""
         blocks = [_table(heading, changes) for heading, changes in self._tables()]
-        if not self.changed:
-            blocks.append(Paragraph("Neither inputs nor results changed."))
-        elif not self.results:
-            blocks.append(Paragraph("No result changed."))
-        for heading, texts in self._lists():
-            blocks += [Paragraph(f"{heading}:"), Notes(texts)]
+        if self._sentence:
+            blocks.append(Paragraph(self._sentence))
+        if self.came or self.went:
+            warnings = {"came": self.came, "went": self.went}
+            blocks.append(
+                Table(
+                    label="tab-changed-warnings",
+                    caption="Warnings that came or went.",
+                    columns=columns("Change", wide("Warning")),
+                    rows=[[change, text] for change, texts in warnings.items() for text in texts],
+                )
+            )
+        if self.retyped:
+            blocks.append(Paragraph(f"{_RETYPED}: {'; '.join(self._retyped())}."))
         return blocks
+
+    @property
+    def _sentence(self) -> str:
+        if self.results:
+            return ""
+        return "No result changed." if self.changed else "No input and no result changed."
 
     def _tables(self) -> list[tuple[str, Sequence[Change]]]:
         tables = [("Inputs", self.inputs), ("Results", self.results)]
         return [(heading, changes) for heading, changes in tables if changes]
 
-    def _lists(self) -> list[tuple[str, Sequence[str]]]:
-        retyped = [f"{name}: {old} before, {new} now." for name, old, new, _ in self.retyped]
-        lists = [
-            ("Warnings that came", self.came),
-            ("Warnings that went", self.went),
-            ("Typed in another way, the same value", retyped),
-        ]
-        return [(heading, texts) for heading, texts in lists if texts]
+    def _retyped(self) -> list[str]:
+        return [f"{name}, {old} before, {new} now" for name, old, new, _ in self.retyped]
 
 
 def compare(old: Calculation, new: Calculation) -> Comparison:
