@@ -11,11 +11,14 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import nbformat
+import page as validator
 import papermill
 import pypdf
 import pytest
+import typst
 import yaml
 from sheet_page import US_CASE
+from word_file import WordFile
 
 from pierimpact.checks import InputError
 from pierimpact.files.case import read_case_file
@@ -94,7 +97,7 @@ def us(tmp_path_factory):
     folder = tmp_path_factory.mktemp("us")
     case = folder / "us.yaml"
     case.write_text(yaml.safe_dump(NASTY_CASE, allow_unicode=True), encoding="utf-8")
-    return case, write_report(case, folder / "out")
+    return case, write_report(case, folder / "out", docx=True)
 
 
 @pytest.fixture(params=["si", "us"])
@@ -102,10 +105,13 @@ def made(request):
     return request.getfixturevalue(request.param)
 
 
-def test_three_files_and_nothing_else(made):
+def test_the_files_of_a_report_and_nothing_else(made):
     case, files = made
     names = {f"{case.stem}.{ending}" for ending in ("ipynb", "html", "pdf")}
+    if case.stem == "us":
+        names.add("us.docx")
     assert {path.name for path in files.pdf.parent.iterdir()} == names
+    assert {path.name for path in files.files} == names
     assert files.warnings == []
 
 
@@ -249,6 +255,7 @@ def test_text_from_users_prints_as_typed(us):
     page = Text(files.html.read_text("utf-8"))
     # In the title block, in both tables of sources and among the notes.
     assert squeezed(page.text).count(squeezed(NASTY)) == 4
+    assert squeezed(WordFile(files.docx.read_bytes()).text).count(squeezed(NASTY)) == 4
     assert not [tag for tag, _ in page.tags if tag in ("b", "script")]
     sheet = squeezed("".join(pdf_text(files.pdf)))
     for text in (NASTY_CASE["element"], NASTY_CASE["prepared_by"], NASTY_CASE["checked_by"], "<B>"):
@@ -369,6 +376,43 @@ def test_the_page_has_landmarks_and_table_heads(made):
     assert heads
     assert {attributes["scope"] for attributes in heads} == {"col", "row"}
     assert dict(tags)["html"] == {"lang": "en"}
+
+
+@pytest.mark.parametrize("profile", ["2a", "ua1"])
+def test_a_validator_of_others_finds_no_fault(made, profile):
+    found = validator.validate_pdf(made[1].pdf, profile=profile)
+    assert found.rules.total > 100
+    assert [failure.message for failure in found.failures] == []
+
+
+def test_that_validator_finds_faults(tmp_path):
+    (tmp_path / "plain.pdf").write_bytes(typst.compile(b"A line"))
+    for profile in ("2a", "ua1"):
+        assert not validator.is_pdf_compliant(tmp_path / "plain.pdf", profile=profile)
+
+
+def test_each_file_is_called_by_its_element(si, us):
+    titles = [pypdf.PdfReader(files.pdf).metadata.title for _, files in (si, us)]
+    assert titles[0] == (
+        "Round column, 36 in — Full-scale tests of TTI 9-4973-2, the column as a bridge column — "
+        "Truck collision with a bridge pier"
+    )
+    assert titles[1].startswith(f"{NASTY_CASE['element']} — {NASTY[:40]}")
+    for (_, files), title in zip((si, us), titles, strict=True):
+        (shown,) = re.findall("<title>(.*?)</title>", files.html.read_text("utf-8"), re.DOTALL)
+        assert html.unescape(shown) == title
+
+
+def test_every_heading_is_a_bookmark(made):
+    outline = [each["/Title"] for each in flat(pypdf.PdfReader(made[1].pdf).outline)]
+    headings = re.findall(r"<h([23])\s[^>]*>(.*?)</h[23]>", made[1].html.read_text("utf-8"), re.S)
+    found = [squeezed(title) for title in outline]
+    assert found == [squeezed(Text(heading).text) for _, heading in headings]
+
+
+def flat(outline):
+    """Return the entries of an outline, those below others after them."""
+    return [e for each in outline for e in (flat(each) if isinstance(each, list) else [each])]
 
 
 def test_the_pdf_says_what_it_conforms_to(made):
