@@ -274,7 +274,7 @@ def sheet(request, tmp_path_factory):
 #: By the unit of speed of the sheet: 10 km/h or 5 mph.
 SPEED_CHANGES = {"km/h": 10.0 / 3.6, "mph": 5.0 * 1609.344 / 3600.0}
 #: A given value, and behind it the one that it was converted from.
-STATED = r"([\d.]+) ([^\s()]+)(?: \(([\d.]+) ([^\s()]+)\))?"
+STATED = r"([\d.]+) ([^\s().,]+)(?: \(([\d.]+) ([^\s()]+)\))?"
 
 
 def exactly(number_, unit, original, unit_of_original):
