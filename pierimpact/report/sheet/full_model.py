@@ -190,6 +190,7 @@ class FullModel(Section):
 
     def balances(self) -> Block:
         """Return energy and momentum, the check by hand of the full model."""
+        # The share is a width by eye, this project's choice.
         return Beside(left=[self.energy()], right=[self.momentum()], share=0.56)
 
     def averages(self) -> Block:

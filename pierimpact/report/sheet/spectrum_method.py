@@ -7,7 +7,7 @@ from pierimpact.design.reaction import DesignReaction
 from pierimpact.plots.stub import draw_spectrum
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Tex, inline
-from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
+from pierimpact.report.document.numbered import Column, Figure, Table, columns, decimal, wide
 from pierimpact.report.document.step_writer import StepWriter, in_symbols
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
@@ -57,12 +57,13 @@ class SpectrumMethod(Section):
         ]
         cells += [["", "", ""]] * (-len(cells) % _ABREAST)
         lines = len(cells) // _ABREAST
+        heads: list[Inline | Column] = ["Symbol", decimal("Value"), "Unit"]
         return Table(
             label="tab-given",
             caption="Starting values, in consistent units: forces are masses times accelerations, "
             f"and 1 {unit_of(mass, self.system)} is {printed(size, 'share', 'SI', given=True)} "
             f"{self.unit('mass')}.",
-            columns=columns(*["Symbol", decimal("Value"), "Unit"] * _ABREAST),
+            columns=columns(*heads * _ABREAST),
             rows=[list(chain(*cells[line::lines])) for line in range(lines)],
         )
 
