@@ -5,18 +5,42 @@ from unittest.mock import patch
 import pytest
 from figure_collisions import collisions
 from generated_collisions import collisions as generated
-from generated_columns import arranged_columns
+from generated_columns import arranged_columns, round_column
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
-from pierimpact import load_truck, simulate
-from pierimpact.plots import crush, history, shape, situation
+from pierimpact import CircularSection, Step, load_truck, reaction_band, simulate
+from pierimpact.design.codes import code_forces
+from pierimpact.design.sensitivity import sensitivity
+from pierimpact.plots import (
+    code_bars,
+    crush,
+    envelopes,
+    history,
+    shape,
+    situation,
+    spectra,
+    tornado,
+)
 
 SYSTEMS = st.sampled_from(["SI", "US"])
 # Without shrinking, which would take minutes.
 SOME = settings(max_examples=10, phases=[Phase.generate])
 TRUCKS = [load_truck(name) for name in ("single-unit-8t", "tractor-trailer-36t")]
+
+STEPPED = round_column(
+    9.0, 1.8, top="free", top_mass=60e3, embedment=0.8, base_rotation_stiffness=20e9,
+    steps=[Step(height=3.0, section=CircularSection(diameter=1.5))],
+)  # fmt: skip
+# Truck, column, impact height [m], speed [m/s], resistances [N, N m] and units.
+CASES = {
+    "usual": (TRUCKS[0], round_column(5.0, 0.9), 1.2, 22.0, (3e6, 4e6), "SI"),
+    "stepped": (TRUCKS[0], STEPPED, 1.2, 17.0, (3e6, 1.5e6), "SI"),
+    "tall": (TRUCKS[1], round_column(30.0, 2.0), 1.35, 28.0, (40e6, None), "US"),
+    "slow": (TRUCKS[0], round_column(3.0, 0.9, top="fixed"), 1.2, 2.8, (None, None), "US"),
+    "heavy": (TRUCKS[0].loaded_to(30e3), round_column(6.0, 1.1), 1.35, 25.0, (9e6, 9e6), "SI"),
+}
 
 
 def figure_of(draw, *arguments):
@@ -73,3 +97,25 @@ def test_the_history_is_clear(number):
     case = generated(6, seed=2)[number]
     found = simulate(case.truck, case.pier, case.speed)
     assert collisions(figure_of(history.draw_history, found, "SI")) == []
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_what_rests_on_a_whole_calculation_is_clear(name):
+    truck, column, height, speed, resistances, system = CASES[name]
+    struck = column.struck_at(height)
+    pier = struck.equivalent(0.05)
+    found, beam = (simulate(truck, own, speed) for own in (pier, column.beam(height)))
+    reaction, lowest = found.governing_peak.reaction, float(found.reaction.min())
+    impacts = [(struck.member_forces(reaction), struck.member_forces(lowest), beam.member_forces)]
+    changes = sensitivity(truck, column, pier, height, speed)
+    band = reaction_band(truck, pier, speed, size=64)
+    averages = dict.fromkeys((0.01, 0.025, 0.05), 0.7 * reaction)
+    codes = code_forces(speed, truck.mass)
+    low, _, high = band.quantiles()
+    for drawn in (
+        figure_of(envelopes.draw_envelopes, impacts, resistances, system, column),
+        figure_of(spectra.draw_spectra, changes.frequency, pier.frequency, system),
+        figure_of(code_bars.draw_code_bars, codes, averages, reaction, (low, high), system),
+        figure_of(tornado.draw_tornado, changes, band, reaction, system),
+    ):
+        assert collisions(drawn) == []

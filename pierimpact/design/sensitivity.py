@@ -20,9 +20,9 @@ Array: TypeAlias = NDArray[np.float64]
 SPEED_CHANGES = {"SI": 10.0 / 3.6, "US": 5.0 * 0.44704}
 MASS_CHANGE = 0.2
 
-# Curves run over these shares of the case's value, and over these frequencies [Hz]: this project's
-# choice.
-_SHARES = np.linspace(0.5, 1.5, 31)
+#: Curves run over these shares of the case's value: this project's choice.
+SHARES = np.linspace(0.5, 1.5, 31)
+# And over these frequencies: this project's choice [Hz].
 _FREQUENCIES = np.geomspace(2.0, 200.0, 130)
 
 
@@ -106,9 +106,9 @@ def sensitivity(
 
     mass = truck.mass
     asked: dict[str, tuple[Any, Callable[[float], Collision | None]]] = {
-        "speed": (speed * _SHARES, at_speed),
-        "mass": (mass * _SHARES, at_mass),
-        "impact_height": (impact_height * _SHARES, at_height),
+        "speed": (speed * SHARES, at_speed),
+        "mass": (mass * SHARES, at_mass),
+        "impact_height": (impact_height * SHARES, at_height),
         "frequency": (np.unique(np.append(_FREQUENCIES, pier.frequency)), at_frequency),
         "slower": ([speed - speed_change], at_speed),
         "faster": ([speed + speed_change], at_speed),

@@ -1,4 +1,4 @@
-"""The column in elevation, to scale: its parts, what holds it, its mass at the top, the impact."""
+"""The column in elevation, to scale: its parts, what holds it, and its mass at the top."""
 
 import math
 from typing import Any
@@ -8,50 +8,12 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Rectangle
 
 from pierimpact.pier.arrangement import Support
-from pierimpact.pier.column import PierColumn, StruckColumn
-from pierimpact.plots.dimension import draw_dimension
-from pierimpact.plots.labels import Label, place
-from pierimpact.plots.style import INK, VERMILION, sheet_figure, to_svg
+from pierimpact.pier.column import PierColumn
+from pierimpact.plots.labels import Label
+from pierimpact.plots.style import INK
 from pierimpact.plots.words import named, shown
 
 _CONCRETE, _BURIED, _SOIL = "#dcd8d0", "#efece6", "#b4bac0"
-
-
-def draw_elevation(struck: StruckColumn, system: str) -> str:
-    """Draw a column with its impact to scale, the travel from left to right; return SVG.
-
-    Parameters
-    ----------
-    struck : StruckColumn
-        The column and where it is struck.
-    system : {"SI", "US"}
-        Units to print in.
-    """
-    column, impact = struck.column, struck.impact_height
-    bottom, top = 0.0 - column.embedment, column.height
-    face = 0.5 * widest(column)
-    unit = 0.045 * (top - bottom)  # of all gaps
-    with sheet_figure(3.4, left=0.0, right=1.0, bottom=0.0, top=1.0) as figure:
-        axes = figure.add_subplot()
-        axes.set_axis_off()
-        size = max(top - bottom + 12.0 * unit, (2.0 * face + 24.0 * unit) * 3.4 / 6.5)
-        reach = 0.5 * size * 6.5 / 3.4
-        axes.set(xlim=(-reach, reach), ylim=(bottom - 5.0 * unit, bottom - 5.0 * unit + size))
-        labels = draw_column(axes, column, unit, system)
-        draw_ground(axes, -face - 9.0 * unit, face + 9.0 * unit, unit)
-        arrow = {"arrowstyle": "-|>", "color": VERMILION, "linewidth": 1.6, "shrinkB": 0.0}
-        axes.annotate("", (-face, impact), (-face - 4.0 * unit, impact), arrowprops=arrow)
-        for beside, low, high, name in (
-            (-face - 2.0 * unit, 0.0, impact, "z"),
-            (face + 5.0 * unit, 0.0, top, "H"),
-            (face + 5.0 * unit, bottom, 0.0, "He"),
-        ):
-            if high > low:
-                draw_dimension(axes, (beside, low), (beside, high), "")
-                words = named(name, high - low, system)
-                labels.append(Label(axes, words, (beside, 0.5 * (low + high))))
-        place(figure, labels)
-        return to_svg(figure)
 
 
 def widest(column: PierColumn) -> float:

@@ -9,36 +9,14 @@ from numpy.typing import NDArray
 
 from pierimpact.pier.sections import RegularPolygonSection, Section
 from pierimpact.plots.dimension import draw_dimension
-from pierimpact.plots.labels import Label, place
-from pierimpact.plots.style import INK, MUTED, VERMILION, sheet_figure, to_svg
+from pierimpact.plots.labels import Label
+from pierimpact.plots.style import INK, MUTED, VERMILION
 from pierimpact.plots.words import named
 
 _CONCRETE, _STEEL = "#dcd8d0", "#5b7083"
 
 
-def draw_section(section: Section, system: str) -> str:
-    """Draw a section to scale, the travel from left to right; return SVG.
-
-    Parameters
-    ----------
-    section : Section
-        A section with an outline: any but a `FreeSection`.
-    system : {"SI", "US"}
-        Units to print in.
-    """
-    outer = outline(section)
-    unit = 0.1 * float(max(section.extent, np.ptp(outer[:, 1])))  # of all gaps
-    with sheet_figure(2.3, left=0.0, right=1.0, bottom=0.0, top=1.0) as figure:
-        axes = figure.add_subplot()
-        axes.set_axis_off()
-        axes.set_xlim(outer[:, 0].min() - 6.0 * unit, outer[:, 0].max() + 6.0 * unit)
-        axes.set_ylim(outer[:, 1].min() - 3.0 * unit, outer[:, 1].max() + 2.0 * unit)
-        axes.set(aspect="equal", adjustable="datalim")
-        place(figure, add_section(axes, section, unit, system))
-        return to_svg(figure)
-
-
-def add_section(axes: Axes, section: Section, unit: float, system: str) -> list[Label]:
+def draw_section(axes: Axes, section: Section, unit: float, system: str) -> list[Label]:
     """Draw a section about zero, its dimensions and the direction of travel; return its labels.
 
     Parameters

@@ -12,7 +12,7 @@ from pierimpact.pier.sections import FreeSection, Section
 from pierimpact.plots.dimension import draw_dimension
 from pierimpact.plots.elevation import draw_column, draw_ground, widest
 from pierimpact.plots.labels import Label, place
-from pierimpact.plots.section import add_section, outline
+from pierimpact.plots.section import draw_section, outline
 from pierimpact.plots.style import INK, MUTED, PALE, VERMILION, page_figure, to_svg
 from pierimpact.plots.words import named, shown
 from pierimpact.vehicle.truck import Truck
@@ -81,7 +81,7 @@ def draw_situation(
         mass = f"{shown(truck.mass, 'mass', system, given=True)}"
         labels.append(Label(axes, mass, (max(face - _GAP * mm - 2.2, left), 1.1), (0.0, 0.0)))
         axes.text(0.01, 0.01, f"Elevation 1:{scale}", transform=axes.transAxes)
-        place(figure, labels + _draw_section(figure, struck, system))
+        place(figure, labels + _add_section(figure, struck, system))
         return to_svg(figure)
 
 
@@ -135,7 +135,7 @@ def _draw_truck(axes: Axes, nose: float, cut: float) -> None:
         part.set_clip_path(Rectangle((cut, 0.0), nose - cut + 1.0, 4.0, transform=axes.transData))
 
 
-def _draw_section(figure: Figure, section: Section, system: str) -> list[Label]:
+def _add_section(figure: Figure, section: Section, system: str) -> list[Label]:
     """Draw the section at the top left, to a scale of its own; return its labels."""
     width, height = _ROOM
     axes = figure.add_axes((0.0, 1.0 - height / HEIGHT, width / WIDTH, height / HEIGHT))
@@ -152,4 +152,4 @@ def _draw_section(figure: Figure, section: Section, system: str) -> list[Label]:
     x, y = 0.5 * width - 1.0, 0.5 * height + 0.5  # of the middle of the section, on paper
     axes.set(xlim=(-x * mm, (width - x) * mm), ylim=(-y * mm, (height - y) * mm))
     axes.text(0.02, 0.99, f"Section 1:{scale}", transform=axes.transAxes, va="top")
-    return add_section(axes, section, _UNIT * mm, system)
+    return draw_section(axes, section, _UNIT * mm, system)
