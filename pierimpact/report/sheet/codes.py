@@ -2,7 +2,7 @@
 
 from pierimpact.design.codes import CodeForce, Sourced
 from pierimpact.pier.member_forces import MemberForces
-from pierimpact.plots.stub import draw_code_bars
+from pierimpact.plots.code_bars import draw_code_bars
 from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section

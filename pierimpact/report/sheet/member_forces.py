@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pierimpact.plots.stub import draw_envelopes
+from pierimpact.plots.envelopes import draw_envelopes
 from pierimpact.report.calculation import Demand
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Inline, Tex
@@ -156,6 +156,7 @@ class MemberForces(Section):
                 ],
                 (inputs.shear_resistance, inputs.moment_resistance),
                 self.system,
+                self.case.column,
             ),
         )
 

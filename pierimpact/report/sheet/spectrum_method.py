@@ -4,7 +4,7 @@ from itertools import chain
 
 from pierimpact.design.procedure import short
 from pierimpact.design.reaction import DesignReaction
-from pierimpact.plots.stub import draw_spectrum
+from pierimpact.plots.spectra import draw_spectra
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Tex, inline
 from pierimpact.report.document.numbered import Column, Figure, Table, columns, decimal, wide
@@ -44,7 +44,7 @@ class SpectrumMethod(Section):
             "marked.",
             alt=f"Spectra of engine and cargo reaction. At this pier’s {pier} the full model gives "
             f"{words}.",
-            svg=draw_spectrum(result.sensitivity.frequency, frequency, self.system),
+            svg=draw_spectra(result.sensitivity.frequency, frequency, self.system),
         )
 
     def starting_values(self) -> Block:
