@@ -166,7 +166,15 @@ class SheetHTMLExporter(_SheetExporter):
     def _pandoc(self, pieces: list[str]) -> list[str]:
         # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
         annotation = re.compile(r"<annotation .*?</annotation>", re.DOTALL)
-        return [annotation.sub("", piece) for piece in super()._pandoc(pieces)]
+        return [
+            _ACCENT.sub(lambda mark: mark[1] + _SPACING[mark[2]], annotation.sub("", piece))
+            for piece in super()._pandoc(pieces)
+        ]
+
+
+# A combining accent stands beside its letter in Chromium; the same as a character of its own, over.
+_SPACING = {"\u0302": "ˆ", "\u0303": "˜", "\u0304": "¯", "\u0307": "˙", "\u0308": "¨"}
+_ACCENT = re.compile(f'(<mo accent="true"[^>]*>)([{"".join(_SPACING)}])')
 
 
 def document_title(sheet: dict[str, Any]) -> str:
