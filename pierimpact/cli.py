@@ -17,7 +17,8 @@ _REPORT = """\
 Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
 the case file. Where there are more cases than one, summary.html, summary.pdf and summary.csv have
 a row for each. If a case fails, the others are still calculated; it is reported at the end. With
---docx, each sheet and the summary are Word documents too.
+--docx, each sheet and the summary are Word documents too; with --binder, binder.pdf has contents,
+summary and all sheets.
 """
 _EXIT_CODES = """\
 Exit code: 0 if every case has its report; 2 if all failures are bad input; 1 if anything else
@@ -51,7 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _fit(options)
         if options.command == "compare":
             return _compare([options.old, options.new])
-        return _report(options.cases, options.output, options.docx)
+        return _report(options)
     except InputError as error:
         _complain(error)
         return 2
@@ -84,6 +85,9 @@ def _parser() -> argparse.ArgumentParser:
         "--output", metavar="DIR", default="reports", help="folder to write to (default: reports)"
     )
     report.add_argument("--docx", action="store_true", help="write Word documents too")
+    report.add_argument(
+        "--binder", action="store_true", help="write binder.pdf too: all sheets in one, bookmarked"
+    )
     teach = commands.add_parser(
         "teach",
         help="open the teaching notebooks",
@@ -293,17 +297,19 @@ def _compare(paths: Sequence[str]) -> int:
     return 0
 
 
-def _report(paths: Sequence[str], output: str, docx: bool) -> int:
+def _report(options: argparse.Namespace) -> int:
     try:
         from pierimpact.report.batch import find_cases, write_reports
     except ModuleNotFoundError as error:
         return _needs("reports", error)
-    cases = find_cases(paths)
-    batch = write_reports(cases, output, docx=docx)
+    cases = find_cases(options.cases, binder=options.binder)
+    batch = write_reports(cases, options.output, docx=options.docx, binder=options.binder)
     for report in batch.reports:
         print(*report.files, sep="\n")
     if batch.summary:
         print(*filter(None, batch.summary), sep="\n")
+    if batch.binder:
+        print(batch.binder)
     sys.stdout.flush()  # so that warnings and failures come last
     for report in batch.reports:
         for warning in report.warnings:
@@ -312,8 +318,9 @@ def _report(paths: Sequence[str], output: str, docx: bool) -> int:
         _complain(failure.reason)
     if len(cases) > 1 and batch.failures:
         _complain(f"{len(batch.failures)} of {len(cases)} cases have no report")
-    if batch.summary_failure:
-        _complain(batch.summary_failure)
+    for whole in filter(None, (batch.summary_failure, batch.binder_failure)):
+        _complain(whole)
+    if batch.summary_failure or batch.binder_failure:
         return 1
     if not batch.failures:
         return 0

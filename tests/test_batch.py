@@ -93,7 +93,7 @@ def made(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(batch_module, "tqdm", bar)
         cases = find_cases([folder, other / "A.yaml"])
-        result = write_reports(cases, root / "out")
+        result = write_reports(cases, root / "out", binder=True)
     return cases, result, root / "out", bars[0]
 
 
@@ -157,12 +157,31 @@ def test_each_good_case_has_its_report_and_all_a_summary(made):
     names = ["P 1 & <b>", "A"]
     assert [report.pdf.stem for report in result.reports] == names
     expected = {f"{name}.{ending}" for name in names for ending in ("ipynb", "html", "pdf")}
-    expected |= {f"summary.{ending}" for ending in ("html", "pdf", "csv")}
+    expected |= {f"summary.{ending}" for ending in ("html", "pdf", "csv")} | {"binder.pdf"}
     assert {path.name for path in output.iterdir()} == expected
     assert set(result.summary) - {None} == {
         output / f"summary.{end}" for end in ("html", "pdf", "csv")
     }
     assert len(cases) == 5
+
+
+def test_the_binder_has_contents_summary_and_every_sheet(made):
+    _, result, output, _ = made
+    bound = pypdf.PdfReader(result.binder)
+    documents = [result.summary.pdf, *(report.pdf for report in result.reports)]
+    pages = [len(pypdf.PdfReader(document).pages) for document in documents]
+    assert len(bound.pages) == 1 + sum(pages)
+    titles = [each["/Title"] for each in bound.outline if not isinstance(each, list)]
+    assert titles == [
+        "Contents",
+        "Summary (all)",
+        "Round column, 36 in (P 1 & <b>)",
+        "@x;-y (A)",
+    ]
+    contents = bound.pages[0].extract_text()
+    for failure in result.failures:
+        assert failure.reason in contents
+    assert result.binder == output / "binder.pdf"
 
 
 def test_each_bad_case_has_one_line_that_says_why(made):
@@ -505,7 +524,7 @@ def test_one_case_has_no_summary(tmp_path, monkeypatch):
     report = Report(Path("a.ipynb"), Path("a.html"), Path("a.pdf"), [], results_of(case))
     monkeypatch.setattr(batch_module, "write_report", lambda *_, **__: report)
     result = write_reports([case], tmp_path / "out", progress=False)
-    assert result == ([report], [], None, "")
+    assert result == ([report], [], None, "", None, "")
 
 
 def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
@@ -524,6 +543,18 @@ def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
     lines = capsys.readouterr()
     assert lines.out.splitlines() == ["x.ipynb", "x.html", "x.pdf"] * 2
     assert lines.err == "pierimpact: the summary: ValueError: no CSV\n"
+    assert list(output.iterdir()) == []
+
+
+def test_a_binder_that_fails_leaves_the_rest(tmp_path, monkeypatch, capsys):
+    case = write_case(tmp_path / "a.yaml")
+    report = Report(Path("x.ipynb"), Path("x.html"), Path("x.pdf"), [], results_of(case))
+    monkeypatch.setattr(batch_module, "write_report", lambda *_, **__: report)
+    output = tmp_path / "out"
+    assert cli.main(["report", str(case), "--binder", "--output", str(output)]) == 1
+    lines = capsys.readouterr()
+    assert lines.out.splitlines() == ["x.ipynb", "x.html", "x.pdf"]
+    assert lines.err.startswith("pierimpact: the binder: FileNotFoundError: ")
     assert list(output.iterdir()) == []
 
 

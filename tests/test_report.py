@@ -229,6 +229,42 @@ def test_a_browser_makes_no_request(us, tmp_path):
     assert requested_by(asking, tmp_path) == {image}
 
 
+CUT = """
+<iframe style="width: 400px; height: 900px; border: 0" src="PAGE"></iframe>
+<pre id="cut"></pre>
+<script>
+onload = () => {
+  const page = document.querySelector("iframe").contentDocument;
+  const cut = [...page.querySelectorAll("main *")].filter(each => {
+    for (let box = each; box; box = box.parentElement)
+      if (getComputedStyle(box).overflowX === "auto") return false;
+    return each.getBoundingClientRect().right > 400.5;
+  });
+  document.querySelector("#cut").textContent =
+    `${page.querySelectorAll("main *").length} ${page.documentElement.scrollWidth} ${cut.length}`;
+};
+</script>
+"""
+
+
+@pytest.mark.skipif(
+    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
+)
+def test_a_narrow_screen_cuts_nothing(made, tmp_path):
+    (tmp_path / "view.html").write_text(CUT.replace("PAGE", made[1].html.as_uri()), "utf-8")
+    done = subprocess.run(
+        [
+            *BROWSER.split(), f"--user-data-dir={tmp_path / 'profile'}",
+            "--allow-file-access-from-files", (tmp_path / "view.html").as_uri(),
+        ],
+        capture_output=True, encoding="utf-8", check=True, timeout=600,
+    )  # fmt: skip
+    elements, width, cut = re.search(r'id="cut">(\d+) (\d+) (\d+)<', done.stdout).groups()
+    assert int(elements) > 1000
+    assert int(width) <= 400
+    assert int(cut) == 0
+
+
 def test_mathematics_is_mathml_and_nothing_is_left_raw(si):
     text = si[1].html.read_text("utf-8")
     page = Text(text)
