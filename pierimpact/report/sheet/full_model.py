@@ -19,16 +19,16 @@ class FullModel(Section):
         """Return the equations of motion and the crush law that the full model solves."""
         on_pier = self.case.truck.friction_on == "pier"
         relative = r"\dot x_2 - \dot x_\mathrm{p}" if on_pier else r"\dot x_2"
-        where = "while its spring touches the pier" if on_pier else "from the road"
+        where = "while it touches the pier" if on_pier else "from the road"
         on_the_pier = r" + F_\mathrm{f}" if on_pier else ""
         ours, paper = "derived here", "source paper, Fig. 2"
         rows = (
-            ("Crush of the springs of engine and body", r"\delta_i",
+            ("Crush of either spring", r"\delta_i",
              r"x_i - x_\mathrm{p} \quad (i = 1, 2)", ""),
-            ("Envelope, up to the plateau’s end and beyond", r"E_i(\delta)",
+            ("Envelope: plateau, then rise", r"E_i(\delta)",
              r"\min(k_{\mathrm{u}i} \, \delta, P_i) \ \text{ where } \delta \le d_i, "
              r"\quad P_i + k_i \, (\delta - d_i) \ \text{ beyond}", ours),
-            ("Force of a spring, with its largest crush so far", "F_i",
+            ("Force, from its largest crush", "F_i",
              r"\max(E_i(\delta_{i,\max}) - k_{\mathrm{u}i} \, (\delta_{i,\max} - \delta_i), 0)",
              ours),
             (f"Friction on the body, {where}", r"F_\mathrm{f}",
