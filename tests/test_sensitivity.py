@@ -9,6 +9,7 @@ from pierimpact import (
     PierColumn,
     design_reaction,
     load_truck,
+    peak_reactions,
     simulate,
 )
 from pierimpact.design.sensitivity import SPEED_CHANGES, sensitivity
@@ -95,6 +96,18 @@ def test_the_curves_run_over_half_the_value_to_either_side(found):
 def test_heights_stay_on_the_column_and_this_pier_is_in_the_spectrum(found):
     assert found.impact_height.values[-1] < COLUMN.height
     assert PIER.frequency in found.frequency.values
+
+
+def test_between_its_frequencies_a_spectrum_is_straight(found):
+    there = np.exp(np.random.default_rng(5).uniform(np.log(2.0), np.log(200.0), 150))
+    stiffness = PIER.mass * (2.0 * np.pi * there) ** 2
+    peaks = peak_reactions(TRUCK, PIER.mass, stiffness, PIER.damping_ratio, SPEED)
+    for name in ("engine", "cargo"):
+        curve, exact = getattr(found.frequency, name), getattr(peaks, name)
+        drawn = np.interp(np.log(there), np.log(found.frequency.values), curve)
+        known = np.isfinite(drawn) & np.isfinite(exact)
+        assert np.sum(known) > 100
+        assert np.max(np.abs(drawn - exact)[known]) < 0.01 * np.max(exact[known])
 
 
 def test_changes_that_cannot_be_are_left_out():
