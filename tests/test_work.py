@@ -5,10 +5,14 @@ import json
 import random
 import subprocess
 import sys
+from pathlib import Path
 
+import nbformat
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from nbclient import NotebookClient
+from traitlets.config import Config
 
 import pierimpact
 from pierimpact import cli, exercises, predictions, widgets
@@ -94,6 +98,34 @@ def test_a_name_decides_the_numbers_until_the_first_answer(desk):
     assert "fixed with your first answer" in student.message.value
     assert exercise.words.value == own
     assert read_work(desk / file_name("collision")).name == "Anna"
+
+
+def test_a_new_kernel_restores_it_and_the_saved_notebook_shows_it(tmp_path):
+    """What is answered after a cell has run is in the notebook as it is saved."""
+
+    def run(*sources):
+        cells = [nbformat.v4.new_code_cell(source) for source in sources]
+        config = Config()
+        config.KernelManager.transport_encryption = "auto"
+        config.KernelManager.kernel_name = "python3"
+        resources = {"metadata": {"path": tmp_path}}
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("PYTHONPATH", str(Path(pierimpact.__file__).parents[1]))
+            notebook = nbformat.v4.new_notebook(cells=cells)
+            NotebookClient(notebook, timeout=600, resources=resources, config=config).execute()
+        return ["".join(o.data.get("text/html", "") for o in cell.outputs) for cell in cells[1:4]]
+
+    shown = (
+        "from pierimpact import exercises",
+        "student = exercises.begin('pier'); student",
+        "exercise = exercises.ask('pier', 3); exercise",
+        "exercises.score('pier')",
+    )
+    answered = run(*shown, "student.box.value = 'Anna'; exercise.box.value = '3 Hz'")
+    assert "Anna" in answered[0]
+    assert "3 Hz" in answered[1]
+    assert "not solved yet, 1 try" in answered[2]
+    assert run(*shown) == answered
 
 
 @pytest.mark.parametrize("name", ["a\nb", "x" * 81])
@@ -265,8 +297,9 @@ def test_files_that_cannot_be_read_are_listed_and_stop_nothing(tmp_path, capsys)
     (tmp_path / f"x{ENDING}").write_text("{")
     (tmp_path / f"y{ENDING}").mkdir()
     old = Work("limits", "=CMD()", version="0.0.1")
-    (tmp_path / f"z{ENDING}").write_text(old.written(), encoding="utf-8")
-    (tmp_path / "notes.txt").write_text("no answers")
+    (tmp_path / "z.answers (1).json").write_text(old.written(), encoding="utf-8")
+    for name in ("notes.txt", f"._x{ENDING}", f"x{ENDING}.damaged-1"):
+        (tmp_path / name).write_text("no answers")
     assert cli.main(["collect", str(tmp_path), "--csv", str(tmp_path / "marks.csv")]) == 0
     out, err = capsys.readouterr()
     assert out == f"{tmp_path / 'marks.csv'}: students 1, files read 2\n"

@@ -89,6 +89,8 @@ _UNIT_PAIRS = {
     "pressure": "MPa or GPa",
 }
 
+_PUT_IN = "look at the units of what you put in."
+
 
 def check(question: Question, given: str) -> Verdict:
     """Return whether an answer is right, with a reply.
@@ -141,10 +143,10 @@ def _judge(question: Question, answer: float, value: float) -> tuple[int, Verdic
         return 1, Verdict(False, "The size is right, the sign is not.")
     if _close(value, answer, _ROUNDED):
         return 1, Verdict(False, "Nearly: keep four figures on the way, and round at the end.")
-    units = _UNIT_PAIRS.get(question.dimension, "is it the unit")
+    units = f"{pair}?" if (pair := _UNIT_PAIRS.get(question.dimension)) else _PUT_IN
     factors = {
-        1e3: f"You are out by 1000: {units}?",
-        1e6: f"You are out by a million: {units}?",
+        1e3: f"You are out by 1000: {units}",
+        1e6: f"You are out by a million: {units}",
         10.0: "You are out by 10: look for a decimal point that slipped.",
     }
     for factor, words in factors.items():

@@ -168,7 +168,8 @@ class Exercise:
 
     def _follow(self) -> None:
         """Show the question with the student's numbers, and the reply to what was kept."""
-        self.words.value = self._asked()
+        if self.words.value != self._asked():  # a reply to other numbers means nothing
+            self.words.value, self.feedback.value = self._asked(), ""
         progress = self.kept.work.progress(self.number)
         if progress.tries:
             self._reply(Verdict(progress.right, progress.reply))
@@ -179,7 +180,7 @@ class Exercise:
         progress = self.kept.work.progress(self.number)
         colour = GREEN if verdict.right else VERMILION
         sign = {True: "✓", False: "✗", None: "…"}[verdict.right]
-        words = f'<b style="color:{colour}">{sign}</b> {html.escape(verdict.words)}'
+        words = f'<b style="color:{colour}">{sign}</b> {indexed(verdict.words)}'
         if progress.closed:
             words += f"<br><b>Worked solution.</b> {indexed(self.question.solution)}"
         elif verdict.right is False and not self.question.choices:

@@ -41,7 +41,9 @@ def collect(folder: str | Path) -> Marks:
     folder = Path(folder)
     if not folder.is_dir():
         raise InputError(f"folder {folder} does not exist")
-    paths = sorted(path for path in folder.rglob(f"*{ENDING}") if not path.name.startswith("."))
+    # A browser that saves a file again puts a number before its ending.
+    found_files = folder.rglob(f"*{Path(ENDING).stem}*{Path(ENDING).suffix}")
+    paths = sorted(path for path in found_files if not path.name.startswith("."))
     remarks: list[str] = []
     found: dict[str, dict[str, tuple[Work, Path]]] = {}
     read = 0
