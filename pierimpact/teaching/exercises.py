@@ -61,9 +61,12 @@ class Student:
         kept = self.kept
         self.box.disabled = kept.fixed
         whose = f"of {kept.work.name}" if kept.work.name else "that everybody has"
+        when = "They are fixed with your first answer."
+        if kept.fixed:
+            when = "To begin anew, move the file away and run the notebook in a new kernel."
         words = (
-            f"The exercises below have the numbers {whose}. They are fixed with your first answer. "
-            f"Your work is kept in {kept.path.name}, beside this notebook."
+            f"The exercises below have the numbers {whose}. Your work is kept in "
+            f"{kept.path.name}, beside this notebook. {when}"
         )
         trouble = refused or kept.trouble
         self.message.value = (refusal(trouble) if trouble else "") + muted(html.escape(words))
