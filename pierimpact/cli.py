@@ -42,12 +42,22 @@ not show, which stays at its start.
 _FIT_EXIT_CODES = "Exit code: 0 if a truck was fitted; 2 if the input is bad; 1 if anything failed."
 
 
+_COLLECT = """\
+Read the answer files (*.answers.json) that the teaching notebooks write, from a folder and all
+folders below it, check the answers again, and write a table with a row a student: name or number,
+right answers in total, and for each question whether it is right and after how many tries.
+"""
+_COLLECT_EXIT_CODES = "Exit code: 0 if any file was read; 2 if none was; 1 if anything failed."
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code: 2 for bad input, 1 for any other failure."""
     options = _parser().parse_args(arguments)
     try:
         if options.command == "teach":
-            return _teach(options.app, options.folder, options.browser)
+            return _teach(options)
+        if options.command == "collect":
+            return _collect(options.folder, options.csv)
         if options.command == "fit":
             return _fit(options)
         if options.command == "compare":
@@ -104,6 +114,26 @@ def _parser() -> argparse.ArgumentParser:
     )
     teach.add_argument(
         "--no-browser", dest="browser", action="store_false", help="do not open a browser"
+    )
+    teach.add_argument(
+        "--answers",
+        metavar="NAME",
+        help="print the teacher's sheet instead: times, misconceptions, and worked answers with "
+        'the numbers of the student of this name or number; "" for those who gave none',
+    )
+    collect = commands.add_parser(
+        "collect",
+        help="collect the marks of a class in one table",
+        description=_COLLECT,
+        epilog=_COLLECT_EXIT_CODES,
+        allow_abbrev=False,
+    )
+    collect.add_argument("folder", metavar="FOLDER", help="folder with the students' answer files")
+    collect.add_argument(
+        "--csv",
+        metavar="FILE",
+        default="marks.csv",
+        help="table to write (default: %(default)s)",
     )
     compare = commands.add_parser(
         "compare",
@@ -272,12 +302,31 @@ def _needs(what: str, error: ModuleNotFoundError) -> int:
     return 1
 
 
-def _teach(app: bool, folder: str, browser: bool) -> int:
+def _teach(options: argparse.Namespace) -> int:
+    if options.answers is not None:
+        from pierimpact.teaching.teacher import teachers_sheet
+
+        print(teachers_sheet(options.answers), end="")
+        return 0
     try:
-        return open_notebooks(folder, app=app, browser=browser)
+        return open_notebooks(options.folder, app=options.app, browser=options.browser)
     except TeachError as error:
         _complain(error)
         return 1
+
+
+def _collect(folder: str, table: str) -> int:
+    from pierimpact.teaching.marks import collect
+
+    marks = collect(folder)
+    try:
+        Path(table).write_text(marks.table, encoding="utf-8", newline="")
+    except OSError as error:
+        raise InputError(f"{table} cannot be written to: {error.strerror}") from None
+    print(f"{table}: students {marks.students}, files read {marks.files}", flush=True)
+    for remark in marks.remarks:
+        _complain(remark)
+    return 0
 
 
 def _compare(paths: Sequence[str]) -> int:

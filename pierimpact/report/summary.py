@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import pierimpact
+from pierimpact.checks import no_formula
 from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph, TitleBlock
 from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table, columns, wide
@@ -213,14 +214,6 @@ def summary_csv(rows: Sequence[Row]) -> str:
         values = _values(row, system)
         writer.writerow([column.field(values.get(column.name), system) for column in _OF_THE_CSV])
     return text.getvalue()
-
-
-def no_formula(text: str) -> str:
-    """Return text with an apostrophe before what a spreadsheet would take for a formula.
-
-    That is at the start, and after a semicolon, where many a spreadsheet starts a field.
-    """
-    return re.sub(r"(^|;)(\s*[=+\-@＝＋－＠])", r"\1'\2", text)
 
 
 def _calculated(rows: Iterable[Row]) -> dict[str, Results]:
