@@ -26,7 +26,6 @@ from pierimpact.pier.equivalent import DAMPING_RATIO
 from pierimpact.plots import style
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY
-from pierimpact.units import printed
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
 
@@ -98,7 +97,7 @@ def page(trucks: Sequence[TruckFile]) -> str:
         script=Markup(program),
         data=Markup(json.dumps(_data(trucks)).replace("<", "\\u003c")),
         trucks=[_words(file) for file in trucks],
-        pier_mass=printed(PIER_MASS, "mass", "SI", given=True),
+        pier_mass=_tonnes(PIER_MASS),
         damping_ratio=f"{DAMPING_RATIO:g}",
         version=pierimpact.__version__,
     )
@@ -202,8 +201,13 @@ def _caution(file: TruckFile) -> str:
 def _mass_words(masses: MassRange | None) -> str:
     if masses is None:
         return "Its file does not say for which masses its springs stand."
-    low, high = (printed(mass, "mass", "SI", given=True) for mass in masses[:2])
+    low, high = (_tonnes(mass) for mass in masses[:2])
     return f"Its springs stand for a total mass from {low} to {high} ({masses.source})."
+
+
+def _tonnes(mass: float) -> str:
+    """Return a mass as the page prints it; one unit for a quantity."""
+    return f"{1e-3 * mass:g} t"
 
 
 def _hash(content: str) -> str:

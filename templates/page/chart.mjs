@@ -6,6 +6,8 @@ const ROUND = [1, 1.2, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10];
 const FREQUENCIES = [1, 2, 5, 10, 20, 50, 100, 200, 500];
 const LINE = 16, WIDE = 7; // height of a line of text and width of a letter, rather more than less [px]
 
+const NAMES = { engine: "engine governs", cargo: "cargo governs", neither: "neither arrives" };
+
 /** An SVG element with its attributes and children. */
 export function element(name, attributes = {}, ...children) {
   const made = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -108,15 +110,14 @@ export function drawSpectrum(svg, { points, bands, range, top, here }) {
   const head = MARGIN.top, foot = height - MARGIN.bottom;
   const X = scale(Math.log(range.low), Math.log(range.high), left, right);
   const x = (frequency) => X(Math.log(frequency)), Y = scale(0, top, foot, head);
-  const drawing = [];
+  const drawing = [], names = [];
 
   for (const { what, low, high } of points ? bands : []) {
     const from = x(low), to = x(high);
     const area = { x: from, y: head, width: to - from, height: foot - head, class: `band ${what}` };
     drawing.push(element("rect", area));
-    const names = { engine: "engine governs", cargo: "cargo governs", neither: "neither arrives" };
-    const words = [names[what], names[what].split(" ")[0]].find((w) => 7.2 * w.length < to - from - 8);
-    if (words) drawing.push(text(words, 0.5 * (from + to), head + LINE, `name ${what}`));
+    const words = [NAMES[what], what].find((name) => WIDE * name.length < to - from - 10);
+    if (words) names.push(tag(words, 0.5 * (from + to), head + LINE, `name ${what}`, "middle"));
   }
   drawing.push(...forceAxis(Y, 0, top, left, right, 7));
   for (const tick of new Set([range.low, ...FREQUENCIES, range.high])) {
@@ -160,7 +161,7 @@ export function drawSpectrum(svg, { points, bands, range, top, here }) {
   }
 
   const at = x(here.frequency);
-  drawing.push(element("line", { x1: at, x2: at, y1: head, y2: foot, class: "here" }));
+  drawing.push(element("line", { x1: at, x2: at, y1: head, y2: foot, class: "here" }), ...names);
   const bodies = ["engine", "cargo"].filter((body) => here[body] !== null);
   // Above the upper mark and below the lower one, where the lines are not.
   const upper = here.cargo !== null && here.cargo > here.engine ? "cargo" : "engine";

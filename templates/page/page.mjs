@@ -84,7 +84,7 @@ function momentOf(outcome, moment) {
 // Drawing
 
 function showSpectra() {
-  $("answer").textContent = answer();
+  $("answer").replaceChildren(...answer());
   if ($("chart-figure").hidden) return;
   drawSpectrum($("chart"), { ...shown, range, here: { frequency: state.frequency, ...history.outcome } });
 }
@@ -138,7 +138,7 @@ function answer() {
   const engine = points.filter((point) => point.engineContact !== null);
   const cargo = points.filter((point) => point.cargo !== null);
   if (!engine.length && !cargo.length) {
-    return "At this speed crumpling sheet metal stops engine and cargo before they reach any of these piers.";
+    return ["At this speed crumpling sheet metal stops engine and cargo before they reach any of these piers."];
   }
   const words = [
     engine.length ? `The engine’s peak ${trend(engine, "engine")}.` : "The engine stops short of all these piers.",
@@ -146,13 +146,14 @@ function answer() {
   ];
   const crossings = bands.filter((band) => band.crossing).map((band) => hertz(band.low));
   const [lower, upper] = [bands[0].what, bands.at(-1).what];
-  if (bands.length === 1) words.push(`So the ${lower} governs throughout.`);
-  else if (crossings.length === 1 && bands.length === 2) {
-    words.push(`So below ${crossings[0]} the ${lower} governs, above it the ${upper}.`);
+  let governs = "";
+  if (bands.length === 1) governs = `The ${lower} governs throughout.`;
+  else if (bands.length === 2 && crossings.length === 1) {
+    governs = `Below ${crossings[0]} the ${lower} governs, above it the ${upper}.`;
   } else if (crossings.length > 1) {
-    words.push(`The lines cross at ${crossings.slice(0, -1).join(", ")} and ${crossings.at(-1)}.`);
+    governs = `The lines cross at ${crossings.slice(0, -1).join(", ")} and ${crossings.at(-1)}.`;
   }
-  return words.join(" ");
+  return [`${words.join(" ")} `, make("strong", { textContent: governs })];
 }
 
 /** How a peak changes from the softest pier to the stiffest, in words. */
@@ -171,11 +172,11 @@ function phase({ time, F1, F2 }) {
   const { engineContact, cargoContact } = history.outcome;
   const met = (contact) => contact !== null && time >= contact;
   if (time === 0) return "first touch.";
-  if (F1 <= 0 && F2 <= 0) return "the truck has left the pier, which vibrates freely.";
-  if (met(cargoContact) && F2 > 0) return "the cargo is in contact with the pier.";
-  if (met(engineContact) && F1 > 0) return "the engine is in contact with the pier.";
-  if (met(engineContact)) return "the engine has rebounded, the body still presses.";
-  return "sheet metal crumples, before any hard contact.";
+  if (F1 <= 0 && F2 <= 0) return "the truck has left, the pier vibrates.";
+  if (met(cargoContact) && F2 > 0) return "the cargo is in contact.";
+  if (met(engineContact) && F1 > 0) return "the engine is in contact.";
+  if (met(engineContact)) return "the engine has rebounded.";
+  return "sheet metal crumples.";
 }
 
 // Controls

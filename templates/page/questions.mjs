@@ -30,9 +30,8 @@ export function questions({ outcome, speed, masses, range, crossing }) {
         const engine = last.engine / first.engine, cargo = last.cargo ? last.cargo / first.cargo : 1;
         const reason = `The engine’s peak grows ${fold(engine)}`
           + (last.cargo ? `, the cargo’s ${fold(cargo)}` : "")
-          + ". The engine’s blow is over in a few milliseconds, before a soft pier has begun to move; "
-          + "a stiff one moves with the blow and feels all of it. The cargo pushes for longer, so that "
-          + "a soft pier responds to it as well.";
+          + ": the engine’s blow is over before a soft pier has begun to move, the cargo’s lasts long "
+          + "enough for it to respond.";
         const right = Math.max(engine, cargo) < 0.8 ? 3
           : Math.max(engine, cargo) < 1.3 ? 1
           : engine > 1.5 * cargo ? 2 : 0;
