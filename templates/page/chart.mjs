@@ -30,11 +30,9 @@ export function hertz(frequency) {
   return `${frequency.toFixed(frequency < 99.95 ? 1 : 0)} Hz`;
 }
 
-/** Fit the drawing to the room that it has, so that its text keeps its size. */
-export function sized(svg) {
-  const width = svg.clientWidth, height = svg.clientHeight;
-  svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-  return { width, height };
+/** Fit a chart to the room that it has, so that its text keeps its size: before it is drawn. */
+export function fit(svg) {
+  svg.setAttribute("viewBox", `0 0 ${svg.clientWidth} ${svg.clientHeight}`);
 }
 
 function scale(from, to, first, last) {
@@ -98,21 +96,25 @@ function tag(words, x, y, className, anchor) {
     text(words, x, y, className, anchor));
 }
 
-/**
- * Draw both spectra on one pair of axes.
- *
- * data: { points, bands, range: { low, high }, top [N] }, as `spectrum` has them, and
- *   here: the point of the pier on show. Where `points` is null only the axes and `here` are drawn.
- */
-export function drawSpectrum(svg, { points, bands, range, top, here }) {
-  const { width, height } = sized(svg);
+function spectrumAxes(svg, range, top) {
+  const { width, height } = svg.viewBox.baseVal;
   const left = MARGIN.left, right = width - MARGIN.right;
   const head = MARGIN.top, foot = height - MARGIN.bottom;
   const X = scale(Math.log(range.low), Math.log(range.high), left, right);
   const x = (frequency) => X(Math.log(frequency)), Y = scale(0, top, foot, head);
+  return { x, Y, width, left, right, head, foot };
+}
+
+/**
+ * Draw both spectra on one pair of axes.
+ *
+ * data: { points, bands, range: { low, high }, top [N] }, points and bands as `spectrum` has them.
+ */
+export function drawSpectrum(svg, { points, bands, range, top }) {
+  const { x, Y, width, left, right, head, foot } = spectrumAxes(svg, range, top);
   const drawing = [], names = [];
 
-  for (const { what, low, high } of points ? bands : []) {
+  for (const { what, low, high } of bands) {
     const from = x(low), to = x(high);
     const area = { x: from, y: head, width: to - from, height: foot - head, class: `band ${what}` };
     drawing.push(element("rect", area));
@@ -139,51 +141,52 @@ export function drawSpectrum(svg, { points, bands, range, top, here }) {
     text(ends[1], right, foot + 34, "label", "end"),
   );
 
-  if (points) {
-    drawing.push(...key([["engine", "engine", true], ["cargo", "cargo", true]], right, 14));
-    const line = (body, shown) =>
-      points.map((point) => (shown(point) ? [x(point.frequency), Y(point[body])] : null));
-    const arrives = (point) => point.engineContact !== null;
-    drawing.push(
-      path(line("engine", (point) => !arrives(point)), "curve crumpling"),
-      path(line("cargo", (point) => point.cargo !== null), "curve cargo"),
-      path(line("engine", arrives), "curve engine"),
-    );
-    let free = left; // from where on a crossing can be named at the foot
-    for (const { low, crossing } of bands.toReversed().filter((band) => band.crossing)) {
-      const at = x(low), y = Y(valueAt(points, low));
-      drawing.push(
-        element("line", { x1: at, x2: at, y1: y, y2: foot, class: "drop" }),
-        element("circle", { cx: at, cy: y, r: 3.5, class: "crossing" }),
-      );
-      free = crossing && free === left ? nameCrossing(drawing, at, foot, hertz(low), left, right) : free;
-    }
-  }
+  drawing.push(...key([["engine", "engine", true], ["cargo", "cargo", true]], right, 14));
 
-  const at = x(here.frequency);
-  drawing.push(element("line", { x1: at, x2: at, y1: head, y2: foot, class: "here" }), ...names);
+  const line = (body, shown) =>
+    points.map((point) => (shown(point) ? [x(point.frequency), Y(point[body])] : null));
+  const arrives = (point) => point.engineContact !== null;
+  drawing.push(
+    path(line("engine", (point) => !arrives(point)), "curve crumpling"),
+    path(line("cargo", (point) => point.cargo !== null), "curve cargo"),
+    path(line("engine", arrives), "curve engine"),
+  );
+  // Every crossing is marked; the last, from which on one peak stays the larger, is named.
+  const crossings = bands.filter((band) => band.crossing).map((band) => band.low);
+  for (const frequency of crossings) {
+    const at = x(frequency), y = Y(valueAt(points, frequency));
+    drawing.push(
+      element("line", { x1: at, x2: at, y1: y, y2: foot, class: "drop" }),
+      element("circle", { cx: at, cy: y, r: 3.5, class: "crossing" }),
+    );
+  }
+  if (crossings.length) {
+    const words = `equal at ${hertz(crossings.at(-1))}`, half = 0.5 * WIDE * words.length;
+    const place = Math.min(Math.max(x(crossings.at(-1)), left + half), right - half);
+    drawing.push(tag(words, place, foot - 6, "value crossing", "middle"));
+  }
+  svg.replaceChildren(...drawing, element("g", { class: "pier-on-show" }), ...names);
+}
+
+/** Mark the pier `here`, a point of the spectra, on a drawing of `drawSpectrum`. */
+export function drawHere(svg, { range, top, here }) {
+  const { x, Y, left, right, head, foot } = spectrumAxes(svg, range, top);
+  const at = x(here.frequency), late = at > left + 0.72 * (right - left);
+  const marks = [element("line", { x1: at, x2: at, y1: head, y2: foot, class: "here" })];
   const bodies = ["engine", "cargo"].filter((body) => here[body] !== null);
-  // Above the upper mark and below the lower one, where the lines are not.
+  // Values above the upper mark and below the lower one, where the lines are not.
   const upper = here.cargo !== null && here.cargo > here.engine ? "cargo" : "engine";
   const heights = apart(
     bodies.map((body) => Y(here[body]) + (body === upper ? -9 : 19)), head + 2 * LINE + 4, foot - LINE - 8,
   );
-  const late = at > left + 0.72 * (right - left);
   bodies.forEach((body, n) => {
     const kind = body === "engine" && here.engineContact === null ? "crumpling" : body;
-    drawing.push(
+    marks.push(
       mark(body, at, Y(here[body]), kind === body ? "mark" : "mark crumpling"),
       tag(force(here[body]), at + (late ? -12 : 12), heights[n], `value ${kind}`, late ? "end" : "start"),
     );
   });
-  svg.replaceChildren(...drawing);
-}
-
-function nameCrossing(drawing, at, foot, words, left, right) {
-  const whole = `equal at ${words}`, half = 0.5 * WIDE * whole.length;
-  const place = Math.min(Math.max(at, left + half), right - half);
-  drawing.push(tag(whole, place, foot - 6, "value crossing", "middle"));
-  return place;
+  svg.querySelector(".pier-on-show").replaceChildren(...marks);
 }
 
 function valueAt(points, frequency) {
@@ -209,7 +212,7 @@ function apart(heights, top, bottom) {
  * data: { history: as `follow` returns it, end: of the axis [s], top, bottom: of the axis [N] }.
  */
 export function drawHistory(svg, { history, end, top, bottom }) {
-  const { X, Y, left, right, head, foot } = historyAxes(sized(svg), end, top, bottom);
+  const { X, Y, left, right, head, foot } = historyAxes(svg, end, top, bottom);
   const drawing = forceAxis(Y, bottom, top, left, right, 5);
   const step = end > 0.35 ? 0.1 : 0.05;
   for (let n = 0; n * step <= end * 1.001; n++) {
@@ -231,7 +234,7 @@ export function drawHistory(svg, { history, end, top, bottom }) {
     path(rows.map((row) => [X(row[0]), Y(row[8])]), "curve thin cargo"),
   );
   const times = Array.from({ length: Math.round(right - left) }, (_, n) => (n * end) / (right - left));
-  drawing.push(path(times.map((time) => [X(time), Y(history.at(time).R)]), "curve reaction"));
+  drawing.push(path(times.map((time) => [X(time), Y(history.reaction(time))]), "curve reaction"));
   const { outcome } = history;
   for (const body of ["engine", "cargo"]) {
     if (outcome[body] === null) continue;
@@ -243,8 +246,7 @@ export function drawHistory(svg, { history, end, top, bottom }) {
 
 /** Mark an instant [s] on a drawing of `drawHistory`, with the same data. */
 export function drawInstant(svg, { history, end, top, bottom, instant }) {
-  const { width, height } = svg.viewBox.baseVal;
-  const { X, Y, head, foot } = historyAxes({ width, height }, end, top, bottom);
+  const { X, Y, head, foot } = historyAxes(svg, end, top, bottom);
   const x = X(instant);
   svg.querySelector(".instant").replaceChildren(
     element("line", { x1: x, x2: x, y1: head, y2: foot, class: "here" }),
@@ -252,7 +254,8 @@ export function drawInstant(svg, { history, end, top, bottom, instant }) {
   );
 }
 
-function historyAxes({ width, height }, end, top, bottom) {
+function historyAxes(svg, end, top, bottom) {
+  const { width, height } = svg.viewBox.baseVal;
   const left = MARGIN.left, right = width - MARGIN.right, head = MARGIN.top, foot = height - 36;
   return { left, right, head, foot, X: scale(0, end, left, right), Y: scale(bottom, top, foot, head) };
 }

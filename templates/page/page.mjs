@@ -1,5 +1,5 @@
 // The page: its sliders, its sentences, and the predictions.
-import { MARGIN, drawHistory, drawInstant, drawSpectrum, force, hertz, roundUp } from "./chart.mjs";
+import { MARGIN, drawHere, drawHistory, drawInstant, drawSpectrum, fit, force, hertz, roundUp } from "./chart.mjs";
 import { follow } from "./history.mjs";
 import { simulate } from "./model.mjs";
 import { EXAGGERATION, drawPicture } from "./picture.mjs";
@@ -86,7 +86,21 @@ function momentOf(outcome, moment) {
 function showSpectra() {
   $("answer").replaceChildren(...answer());
   if ($("chart-figure").hidden) return;
-  drawSpectrum($("chart"), { ...shown, range, here: { frequency: state.frequency, ...history.outcome } });
+  drawSpectrum($("chart"), { ...shown, range });
+  showHere();
+}
+
+function showHere() {
+  if ($("chart-figure").hidden) return;
+  drawHere($("chart"), { ...shown, range, here: { frequency: state.frequency, ...history.outcome } });
+}
+
+/** Draw all anew in the room that there is now. */
+function showAll() {
+  if (!$("chart-figure").hidden) fit($("chart"));
+  fit($("history"));
+  showSpectra();
+  showCollision();
 }
 
 function showCollision() {
@@ -220,9 +234,10 @@ const waiting = new Set();
 function soon(act) {
   if (!waiting.size) {
     requestAnimationFrame(() => {
+      if (waiting.has(otherTruck)) waiting.delete(otherPier); // it renews that as well
       const acts = [...waiting];
       waiting.clear();
-      (acts.includes(otherTruck) ? [otherTruck] : acts).forEach((each) => each());
+      acts.forEach((each) => each());
     });
   }
   waiting.add(act);
@@ -230,7 +245,7 @@ function soon(act) {
 
 function otherPier() {
   renewCollision();
-  showSpectra();
+  showHere();
   showCollision();
 }
 
@@ -415,7 +430,7 @@ function ask() {
   $("questions").replaceChildren(...fields);
   $("gate").hidden = revealed;
   $("chart-figure").hidden = !revealed;
-  if (shown) showSpectra();
+  if (shown) showAll();
 }
 
 $("again").onclick = () => {
@@ -435,9 +450,15 @@ document.documentElement.style.setProperty("--plot-right", `${MARGIN.right}px`);
 state.frequency = frequencyAt(placeOf(state.frequency));
 ask();
 setSliders();
+fit($("chart"));
+fit($("history"));
 otherTruck();
-new ResizeObserver(() => soon(otherPier)).observe(document.querySelector("main"));
+let width = $("explorer").clientWidth;
+new ResizeObserver(() => {
+  if (width !== $("explorer").clientWidth) soon(showAll);
+  width = $("explorer").clientWidth;
+}).observe($("explorer"));
 addEventListener("beforeprint", () => {
   for (const details of document.querySelectorAll("details")) details.open = true;
-  otherPier();
+  showAll();
 });
