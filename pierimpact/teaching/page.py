@@ -1,9 +1,9 @@
 """The explorer as one HTML file that needs neither Python nor a network.
 
 Its program is the JavaScript modules in `templates/page`: `model` has the mechanics, `spectrum` and
-`history` what is calculated with them, `chart` and `picture` what is drawn, `questions` the
-predictions, and `page` the page itself. All but the last are pure functions that other pages may
-import; here they are joined into one script.
+`history` what is calculated with them, `chart` and `picture` what is drawn, `sentences` what is
+said, `questions` and `predictions` what is asked, and `page` what the controls do. All but the last
+two are pure functions that other pages may import; here they are joined into one script.
 """
 
 import base64
@@ -30,7 +30,10 @@ from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
 
 #: The modules, each after those that it imports.
-MODULES = ("model", "spectrum", "history", "chart", "picture", "questions", "page")
+MODULES = (
+    *("model", "spectrum", "history", "chart", "picture"),
+    *("sentences", "questions", "predictions", "page"),
+)
 PIER_MASS = 8e3  # of all piers on the page, as in the lessons on spectra [kg]
 # Frequencies on the page, with the one at first in their middle [Hz], and speeds [km/h].
 _FREQUENCIES, _FREQUENCY = (5.0, 180.0), 30.0

@@ -1,48 +1,63 @@
-// The page: its sliders, its sentences, and the predictions.
-import { MARGIN, drawHere, drawHistory, drawInstant, drawSpectrum, fit, force, hertz, roundUp } from "./chart.mjs";
+// The page: what its controls do.
+import { MARGIN, drawHere, drawHistory, drawInstant, drawSpectrum, fit } from "./chart.mjs";
+import { force, hertz, roundUp } from "./chart.mjs";
 import { follow } from "./history.mjs";
 import { simulate } from "./model.mjs";
 import { EXAGGERATION, drawPicture } from "./picture.mjs";
+import { button, make, predictions } from "./predictions.mjs";
 import { questions } from "./questions.mjs";
+import { answer, firstPeak, phase, sentence } from "./sentences.mjs";
 import { bandsOf, coarseSpectrum, pierAt, pointAt, refine } from "./spectrum.mjs";
 
-const { trucks, pier, range, speeds, first } = JSON.parse(document.getElementById("data").textContent);
-const NOTCHES = 180; // steps of the slider, each the same ratio
-const COARSE = 33; // points of a spectrum while a slider moves
-const SLICE = 12; // refining goes on for so long at a time [ms]
-const SLOWER = 40; // the collision is played so many times slower than it is
-const MEMORY = "pierimpact page";
-// Moments to look at, by the time that the outcome has for them; at first the one that governs.
-const GOVERNING = "governing";
-const MOMENTS = { engineContact: "Engine hits", engineTime: "Engine’s peak", cargoContact: "Cargo hits", cargoTime: "Cargo’s peak" };
-
 const $ = (id) => document.getElementById(id);
-const state = { truck: 0, frequency: first.frequency, speed: first.speed, mass: trucks[0].masses.first, instant: 0, moment: GOVERNING };
-let shown = null; // the spectra on show, with their axes
-let history = null; // the collision on show
+const { trucks, pier, range, speeds, first } = JSON.parse($("data").textContent);
+
+const NOTCHES = 180; // steps of the frequency's slider, each by the same ratio
+const COARSE = 33; // points of a spectrum while a slider moves
+const SLICE = 12; // refining it goes on for so long at a time [ms]
+const SLOWER = 40; // the collision is played so many times slower than it is
+// Moments to look at, by the name of their time in an outcome, and the peak that governs.
+const GOVERNING = "governing";
+const MOMENTS = {
+  engineContact: "Engine hits",
+  engineTime: "Engine’s peak",
+  cargoContact: "Cargo hits",
+  cargoTime: "Cargo’s peak",
+};
+
+const state = {
+  truck: 0,
+  frequency: first.frequency, // [Hz]
+  speed: first.speed, // [km/h]
+  mass: trucks[0].masses.first, // [kg]
+  instant: 0, // [s]
+  moment: GOVERNING, // that the instant keeps to; null for none
+};
+let shown = null; // the spectra on show, with the ends of all axes
+let followed = null; // the collision on show
 let refining = null, playing = null;
 
 // What is on show
 
-function loaded(truck, mass) {
-  return { ...truck, body: { ...truck.body, mass: mass - truck.engine.mass } };
-}
-
+/** The collision at hand but for its pier, or another one. */
 function collision({ truck, mass, speed } = state) {
-  return { truck: loaded(trucks[truck], mass), pier, speed: speed / 3.6 };
+  const { engine, body, ...rest } = trucks[truck];
+  const loaded = { ...rest, engine, body: { ...body, mass: mass - engine.mass } };
+  return { truck: loaded, pier, speed: speed / 3.6 };
 }
 
 /** New spectra: coarse at once, and refined as soon as there is time. */
 function renewSpectra() {
   const now = collision();
   shown = framed(coarseSpectrum(range, COARSE, now), now);
+  $("instant").max = 1e3 * shown.end;
   clearTimeout(refining);
   const points = shown.points.slice(), refinement = refine(points, now);
   const slice = () => {
     const end = performance.now() + SLICE;
     while (performance.now() < end) {
       if (!refinement.next().done) continue;
-      shown = framed(points, now);
+      shown = { ...shown, points, bands: bandsOf(points, now) };
       showSpectra();
       return;
     }
@@ -51,7 +66,7 @@ function renewSpectra() {
   refining = setTimeout(slice, SLICE);
 }
 
-/** The spectra with the ends of all axes, which do not depend on the pier. */
+/** Spectra with the ends of all axes, which stay where they are while only the pier changes. */
 function framed(points, now) {
   const highest = Math.max(...points.flatMap((p) => [p.engine, p.cargo ?? 0, p.engineForce]));
   const lowest = Math.min(...points.map((p) => p.lowest));
@@ -61,16 +76,16 @@ function framed(points, now) {
     points,
     bands: bandsOf(points, now),
     top,
-    bottom: -0.25 * top * Math.ceil((-4 * lowest) / top - 0.2),
+    bottom: -0.25 * top * Math.ceil((-4 * lowest) / top),
     end: Math.max(0.15, 0.05 * Math.ceil((1.08 * last) / 0.05)),
   };
 }
 
 function renewCollision() {
   const { truck, speed } = collision();
-  history = follow(truck, pierAt(state.frequency, pier), speed, shown.end);
-  const time = momentOf(history.outcome, state.moment);
-  state.instant = Math.min(time ?? state.instant, shown.end);
+  followed = follow(truck, pierAt(state.frequency, pier), speed, shown.end);
+  const time = momentOf(followed.outcome, state.moment) ?? state.instant;
+  state.instant = Math.min(time, shown.end);
 }
 
 /** The time of a moment; null where it does not happen. */
@@ -81,10 +96,11 @@ function momentOf(outcome, moment) {
   return outcome[moment] ?? null;
 }
 
-// Drawing
+// Drawing it
 
 function showSpectra() {
-  $("answer").replaceChildren(...answer());
+  const [peaks, governs] = answer(shown);
+  $("answer").replaceChildren(peaks, make("strong", { textContent: governs }));
   if ($("chart-figure").hidden) return;
   drawSpectrum($("chart"), { ...shown, range });
   showHere();
@@ -92,7 +108,31 @@ function showSpectra() {
 
 function showHere() {
   if ($("chart-figure").hidden) return;
-  drawHere($("chart"), { ...shown, range, here: { frequency: state.frequency, ...history.outcome } });
+  const here = { frequency: state.frequency, ...followed.outcome };
+  drawHere($("chart"), { ...shown, range, here });
+}
+
+function showCollision() {
+  const { outcome } = followed, words = sentence(state.frequency, outcome);
+  drawHistory($("history"), { history: followed, ...shown });
+  $("engine-name").textContent = firstPeak(outcome);
+  $("engine-peak").textContent = force(outcome.engine);
+  $("cargo-peak").textContent = outcome.cargo === null ? "none" : force(outcome.cargo);
+  $("sentence").textContent = words;
+  $("history-words").textContent = `Forces against time. ${words}`;
+  for (const each of $("moments").children) each.disabled = momentOf(outcome, each.value) === null;
+  showInstant();
+}
+
+function showInstant() {
+  const now = followed.at(state.instant), ms = (1e3 * state.instant).toFixed(1);
+  const { truck } = collision();
+  drawInstant($("history"), { history: followed, ...shown, instant: state.instant });
+  drawPicture($("picture"), { truck, now, frequency: state.frequency, top: shown.top });
+  $("instant").value = ms;
+  $("instant").setAttribute("aria-valuetext", `${ms} milliseconds`);
+  $("instant-value").textContent = `${ms} ms`;
+  $("picture-words").textContent = `${ms} ms: ${phase(now, followed.outcome)}`;
 }
 
 /** Draw all anew in the room that there is now. */
@@ -103,131 +143,7 @@ function showAll() {
   showCollision();
 }
 
-function showCollision() {
-  drawHistory($("history"), { history, ...shown });
-  const { outcome } = history;
-  $("engine-name").textContent = outcome.engineContact === null ? "Sheet metal’s peak" : "Engine’s peak";
-  $("engine-peak").textContent = force(outcome.engine);
-  $("cargo-peak").textContent = outcome.cargo === null ? "none" : force(outcome.cargo);
-  $("sentence").textContent = sentence(outcome);
-  for (const button of $("moments").children) {
-    button.disabled = momentOf(outcome, button.value) === null;
-  }
-  $("history-words").textContent = `Forces against time. ${sentence(outcome)}`;
-  showInstant();
-}
-
-function showInstant() {
-  const now = history.at(state.instant), ms = (1e3 * state.instant).toFixed(1);
-  drawInstant($("history"), { history, ...shown, instant: state.instant });
-  drawPicture($("picture"), { truck: collision().truck, now, frequency: state.frequency, top: shown.top });
-  $("instant").value = ms;
-  $("instant-value").textContent = `${ms} ms`;
-  $("instant").setAttribute("aria-valuetext", `${ms} milliseconds`);
-  $("picture-words").textContent = `${ms} ms: ${phase(now)}`;
-}
-
-// Sentences
-
-function sentence({ engine, engineContact, cargo }) {
-  const at = `On a pier of ${hertz(state.frequency)}`;
-  if (engineContact === null && cargo === null) {
-    return `${at} neither engine nor cargo arrives: crumpling sheet metal stops both. The largest reaction is ${force(engine)}.`;
-  }
-  if (engineContact === null) {
-    return `${at} the engine stops short; the cargo arrives and governs, with ${force(Math.max(cargo, engine))}.`;
-  }
-  if (cargo === null) {
-    return `${at} the engine governs, with ${force(engine)}. The cargo stops short of the pier.`;
-  }
-  const [most, more, least, less] = cargo >= engine
-    ? ["cargo", cargo, "engine", engine]
-    : ["engine", engine, "cargo", cargo];
-  return `${at} the ${most} governs: ${force(more)}, ${(more / less).toFixed(1)} times the ${least}’s ${force(less)}.`;
-}
-
-/** The answer to the question of the page, for the truck and the speed on show. */
-function answer() {
-  const { points, bands } = shown;
-  const engine = points.filter((point) => point.engineContact !== null);
-  const cargo = points.filter((point) => point.cargo !== null);
-  if (!engine.length && !cargo.length) {
-    return ["At this speed crumpling sheet metal stops engine and cargo before they reach any of these piers."];
-  }
-  const words = [
-    engine.length ? `The engine’s peak ${trend(engine, "engine")}.` : "The engine stops short of all these piers.",
-    cargo.length ? `The cargo’s peak ${trend(cargo, "cargo")}.` : "The cargo stops short of all these piers.",
-  ];
-  const crossings = bands.filter((band) => band.crossing).map((band) => hertz(band.low));
-  const [lower, upper] = [bands[0].what, bands.at(-1).what];
-  let governs = "";
-  if (bands.length === 1) governs = `The ${lower} governs throughout.`;
-  else if (bands.length === 2 && crossings.length === 1) {
-    governs = `Below ${crossings[0]} the ${lower} governs, above it the ${upper}.`;
-  } else if (crossings.length > 1) {
-    governs = `The lines cross at ${crossings.slice(0, -1).join(", ")} and ${crossings.at(-1)}.`;
-  }
-  return [`${words.join(" ")} `, make("strong", { textContent: governs })];
-}
-
-/** How a peak changes from the softest pier to the stiffest, in words. */
-function trend(points, body) {
-  const most = points.reduce((p, q) => (q[body] > p[body] ? q : p));
-  const [from, to, top] = [points[0], points.at(-1), most].map((point) => point[body]);
-  const ends = `from ${force(from)} at ${hertz(points[0].frequency)}`;
-  if (top > 1.1 * from && top > 1.1 * to) {
-    return `rises ${ends} to ${force(top)} at ${hertz(most.frequency)}, then falls back to ${force(to)}`;
-  }
-  const verb = to > 1.1 * from ? "rises" : to < from / 1.1 ? "falls" : "hardly changes,";
-  return `${verb} ${ends} to ${force(to)} at ${hertz(points.at(-1).frequency)}`;
-}
-
-function phase({ time, F1, F2 }) {
-  const { engineContact, cargoContact } = history.outcome;
-  const met = (contact) => contact !== null && time >= contact;
-  if (time === 0) return "first touch.";
-  if (F1 <= 0 && F2 <= 0) return "the truck has left, the pier vibrates.";
-  if (met(cargoContact) && F2 > 0) return "the cargo is in contact.";
-  if (met(engineContact) && F1 > 0) return "the engine is in contact.";
-  if (met(engineContact)) return "the engine has rebounded.";
-  return "sheet metal crumples.";
-}
-
 // Controls
-
-/** A range input with its value and unit beside it and for screen readers. */
-function slider(id, { low, high, step, value }, read, words, spoken, changed) {
-  const input = $(id);
-  Object.assign(input, { min: low, max: high, step });
-  input.value = value;
-  const tell = () => {
-    $(`${id}-value`).textContent = words();
-    input.setAttribute("aria-valuetext", spoken());
-  };
-  input.oninput = () => {
-    read(Number(input.value));
-    tell();
-    soon(changed);
-  };
-  tell();
-}
-
-const frequencyAt = (n) => range.low * (range.high / range.low) ** (n / NOTCHES);
-const placeOf = (frequency) =>
-  Math.round((NOTCHES * Math.log(frequency / range.low)) / Math.log(range.high / range.low));
-
-function setSliders() {
-  slider("frequency", { low: 0, high: NOTCHES, step: 1, value: placeOf(state.frequency) },
-    (n) => { state.frequency = frequencyAt(n); },
-    () => hertz(state.frequency), () => hertz(state.frequency).replace("Hz", "hertz"), otherPier);
-  slider("speed", { ...speeds, step: 1, value: state.speed },
-    (value) => { state.speed = value; },
-    () => `${state.speed} km/h`, () => `${state.speed} kilometres per hour`, otherTruck);
-  const { low, high, step } = trucks[state.truck].masses;
-  slider("mass", { low: low / 1e3, high: high / 1e3, step: step / 1e3, value: state.mass / 1e3 },
-    (value) => { state.mass = 1e3 * value; },
-    () => `${(state.mass / 1e3).toFixed(1)} t`, () => `${(state.mass / 1e3).toFixed(1)} tonnes`, otherTruck);
-}
 
 /** Act once before the next picture, however many inputs come. */
 const waiting = new Set();
@@ -252,41 +168,84 @@ function otherPier() {
 function otherTruck() {
   renewSpectra();
   renewCollision();
-  $("instant").max = 1e3 * shown.end;
   showSpectra();
   showCollision();
+}
+
+/**
+ * Give a range input its ends and its place, and say its value beside it and to screen readers.
+ *
+ * read(place): takes the value in; words(): [value, unit, unit in full]; changed: what follows.
+ */
+function setSlider(id, { low, high, step, place }, read, words, changed) {
+  const input = $(id);
+  Object.assign(input, { min: low, max: high, step });
+  input.value = place;
+  const tell = () => {
+    const [value, unit, inFull] = words();
+    $(`${id}-value`).textContent = `${value} ${unit}`;
+    input.setAttribute("aria-valuetext", `${value} ${inFull}`);
+  };
+  input.oninput = () => {
+    read(Number(input.value));
+    tell();
+    soon(changed);
+  };
+  tell();
+}
+
+const ratio = range.high / range.low;
+const frequencyAt = (place) => range.low * ratio ** (place / NOTCHES);
+const placeOf = (frequency) =>
+  Math.round((NOTCHES * Math.log(frequency / range.low)) / Math.log(ratio));
+
+function setSliders() {
+  const { low, high, step } = trucks[state.truck].masses;
+  setSlider("frequency", { low: 0, high: NOTCHES, step: 1, place: placeOf(state.frequency) },
+    (place) => { state.frequency = frequencyAt(place); },
+    () => [...hertz(state.frequency).split(" "), "hertz"], otherPier);
+  setSlider("speed", { ...speeds, step: 1, place: state.speed },
+    (place) => { state.speed = place; },
+    () => [state.speed, "km/h", "kilometres per hour"], otherTruck);
+  setSlider("mass", { low: low / 1e3, high: high / 1e3, step: step / 1e3, place: state.mass / 1e3 },
+    (place) => { state.mass = 1e3 * place; },
+    () => [(state.mass / 1e3).toFixed(1), "t", "tonnes"], otherTruck);
 }
 
 function choose(truck) {
   state.truck = truck;
   state.mass = trucks[truck].masses.first;
   $("truck").value = truck;
-  for (const note of document.querySelectorAll(".status")) note.hidden = Number(note.dataset.truck) !== truck;
+  for (const note of document.querySelectorAll(".status")) {
+    note.hidden = Number(note.dataset.truck) !== truck;
+  }
 }
 
 /** Look at a moment of this collision, and of those that the sliders make of it. */
 function look(moment) {
   play(false);
   state.moment = moment;
-  state.instant = momentOf(history.outcome, moment) ?? state.instant;
+  state.instant = momentOf(followed.outcome, moment) ?? state.instant;
   showInstant();
 }
 
 function play(start) {
   cancelAnimationFrame(playing);
   playing = null;
-  if (start) state.moment = null;
-  if (start && state.instant >= shown.end - 1e-9) state.instant = 0;
+  $("play").textContent = start ? "Pause" : "Play";
+  if (!start) return;
+  if (state.moment === GOVERNING || state.instant >= shown.end - 1e-9) state.instant = 0;
+  state.moment = null;
   let last = null;
   const picture = (time) => {
-    if (last !== null) state.instant = Math.min(state.instant + (time - last) / 1e3 / SLOWER, shown.end);
+    const passed = last === null ? 0 : (time - last) / 1e3 / SLOWER;
     last = time;
+    state.instant = Math.min(state.instant + passed, shown.end);
     showInstant();
     if (state.instant < shown.end) playing = requestAnimationFrame(picture);
     else play(false);
   };
-  if (start) playing = requestAnimationFrame(picture);
-  $("play").textContent = start ? "Pause" : "Play";
+  playing = requestAnimationFrame(picture);
 }
 
 $("play").onclick = () => play(playing === null);
@@ -296,163 +255,68 @@ $("instant").oninput = () => {
   soon(showInstant);
 };
 for (const [moment, words] of Object.entries(MOMENTS)) {
-  const go = button(words, "", () => look(moment));
-  go.value = moment;
-  $("moments").append(go);
+  $("moments").append(Object.assign(button(words, "", () => look(moment)), { value: moment }));
 }
 $("truck").onchange = () => {
   choose(Number($("truck").value));
   setSliders();
   soon(otherTruck);
 };
-
-// Predictions
-
-const memory = remembered();
-
-/** What was decided before, where the browser keeps it. */
-function remembered() {
-  try {
-    const kept = JSON.parse(localStorage.getItem(MEMORY));
-    if (kept && typeof kept.choices === "object") return { choices: kept.choices, skipped: Boolean(kept.skipped) };
-  } catch { /* none, or none allowed */ }
-  return { choices: {}, skipped: false };
+for (const link of document.querySelectorAll(".status a")) {
+  link.onclick = () => { document.querySelector(link.hash).open = true; };
 }
-
-function remember() {
-  try {
-    localStorage.setItem(MEMORY, JSON.stringify(memory));
-  } catch { /* it works without */ }
-}
-
-/** The first truck at the first speed, which the predictions are about. */
-function reference(mass) {
-  return collision({ truck: 0, mass, speed: first.speed });
-}
-
-const { masses } = trucks[0];
-const asked = questions({
-  outcome: (frequency, mass) => pointAt(frequency, reference(mass)),
-  crossing(mass) {
-    const bands = bandsOf(coarseSpectrum(range, COARSE, reference(mass)), reference(mass));
-    return bands.findLast((band) => band.crossing)?.low;
-  },
-  speed: first.speed,
-  masses: [masses.first, masses.high > 1.05 * masses.first ? masses.high : 1.5 * masses.first],
-  range,
-});
-
-function make(name, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(name), properties);
-  made.append(...children);
-  return made;
-}
-
-function button(words, className, act) {
-  return make("button", { type: "button", textContent: words, className, onclick: act });
-}
-
-/** A question as a field set; once it is locked, with its answer. */
-function fieldset(question, number) {
-  const field = make("fieldset", { id: `question-${number}` }, make("legend", { textContent: `${number + 1}. ${question.words}` }));
-  const locked = number in memory.choices;
-  const { right, reason } = locked ? question.answer() : {};
-  const choices = make("div", { className: "choices" });
-  question.choices.forEach(([words], n) => {
-    const chosen = memory.choices[number] === n;
-    const input = make("input", { type: "radio", name: field.id, value: n, checked: chosen, disabled: locked });
-    const label = make("label", {}, input, make("span", { textContent: words }));
-    if (locked && n === right) label.className = "right";
-    if (chosen) label.append(make("small", { textContent: n === right ? "✓ your prediction" : "✗ your prediction" }));
-    else if (locked && n === right) label.append(make("small", { textContent: "✓ what happens" }));
-    choices.append(label);
-  });
-  field.append(choices);
-  const buttons = make("div", { className: "buttons" });
-  if (locked) {
-    field.append(make("p", { className: "verdict", tabIndex: -1 }, ...verdict(question, memory.choices[number], right, reason)));
-    if (question.show) buttons.append(button("Show it above", "", () => showExample(question.show)));
-  } else {
-    const lock = button("Lock my prediction", "main", () => {
-      memory.choices[number] = Number(choices.querySelector(":checked").value);
-      remember();
-      ask();
-      if (number === 0) lead(verdict(question, memory.choices[0], question.answer().right, question.answer().reason));
-      else document.querySelector(`#question-${number} .verdict`).focus();
-    });
-    lock.disabled = true;
-    choices.onchange = () => { lock.disabled = false; };
-    buttons.append(lock);
-    if (number === 0 && !memory.skipped) {
-      buttons.append(button("Show the lines without predicting", "plain", () => {
-        memory.skipped = true;
-        remember();
-        ask();
-        lead(["Move the slider: the marks stand for this pier, the lines for all the others. Each point of a line is a whole collision."]);
-      }));
-    }
-  }
-  if (buttons.children.length) field.append(buttons);
-  return field;
-}
-
-function verdict(question, choice, right, reason) {
-  if (choice === right) return [make("strong", { textContent: "As you predicted. " }), reason];
-  const misconception = question.choices[choice][1];
-  return [
-    make("strong", { textContent: "Not so. " }),
-    ...(misconception ? ["A common misconception: ", make("em", { textContent: `“${misconception}”` }), " "] : []),
-    reason,
-  ];
-}
-
-function lead(words) {
-  $("lead").replaceChildren(...words);
-  $("lead").focus({ preventScroll: true });
-}
-
-function showExample({ frequency, mass, moment }) {
-  play(false);
-  choose(0);
-  Object.assign(state, { frequency: frequencyAt(placeOf(frequency)), mass, speed: first.speed });
-  setSliders();
-  otherTruck();
-  look(moment);
-  $("explorer").scrollIntoView();
-  $("frequency").focus({ preventScroll: true });
-}
-
-/** Put each question in its place: the first in that of the lines until it is answered or skipped. */
-function ask() {
-  const revealed = memory.skipped || 0 in memory.choices;
-  const fields = asked.map(fieldset);
-  $("gate").replaceChildren(...(revealed ? [] : [fields.shift()]));
-  $("questions").replaceChildren(...fields);
-  $("gate").hidden = revealed;
-  $("chart-figure").hidden = !revealed;
-  if (shown) showAll();
-}
-
-$("again").onclick = () => {
-  Object.assign(memory, { choices: {}, skipped: false });
-  remember();
-  ask();
-  $("explorer").scrollIntoView();
-  document.querySelector("#question-0 input").focus({ preventScroll: true });
-};
 
 // Start
 
 globalThis.pierimpact = { simulate, trucks, pierAt }; // to calculate more in the console
 $("exaggeration").textContent = EXAGGERATION;
+$("slower").textContent = SLOWER;
 document.documentElement.style.setProperty("--plot-left", `${MARGIN.left}px`);
 document.documentElement.style.setProperty("--plot-right", `${MARGIN.right}px`);
 state.frequency = frequencyAt(placeOf(state.frequency));
-ask();
 setSliders();
-fit($("chart"));
-fit($("history"));
-otherTruck();
+renewSpectra();
+renewCollision();
+
+// The predictions are about the first truck at the first speed.
+const { masses } = trucks[0];
+const of = (mass) => collision({ truck: 0, mass, speed: first.speed });
+const about = {
+  outcome: (frequency, mass) => pointAt(frequency, of(mass)),
+  crossing: (mass) => bandsOf(coarseSpectrum(range, COARSE, of(mass)), of(mass))
+    .findLast((band) => band.crossing)?.low,
+  speed: first.speed,
+  mass: masses.first,
+  masses: masses.high > masses.first ? [masses.first, masses.high] : [masses.low, masses.first],
+  range,
+};
+const asked = questions(about).filter(({ show }) => !show || masses.high > masses.low);
+const { startAgain } = predictions(asked, {
+  gate: $("gate"),
+  list: $("questions"),
+  key: `pierimpact page, ${trucks[0].name}`,
+  reveal(revealed, words) {
+    $("chart-figure").hidden = !revealed;
+    showAll();
+    if (!words) return;
+    $("lead").replaceChildren(...words);
+    $("lead").focus({ preventScroll: true });
+  },
+  show({ frequency, mass, moment }) {
+    choose(0);
+    Object.assign(state, { frequency: frequencyAt(placeOf(frequency)), mass, speed: first.speed });
+    setSliders();
+    otherTruck();
+    look(moment);
+    $("explorer").scrollIntoView();
+    $("frequency").focus({ preventScroll: true });
+  },
+});
+$("again").onclick = () => {
+  startAgain();
+  $("explorer").scrollIntoView();
+};
+
 let width = $("explorer").clientWidth;
 new ResizeObserver(() => {
   if (width !== $("explorer").clientWidth) soon(showAll);
