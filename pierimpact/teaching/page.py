@@ -27,7 +27,7 @@ from pierimpact.plots import style
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY
 from pierimpact.vehicle.crush import CrushSpring
-from pierimpact.vehicle.truck import Truck
+from pierimpact.vehicle.truck import QUANTITIES, Truck
 
 #: The modules, each after those that it imports.
 MODULES = (
@@ -174,9 +174,10 @@ def _words(file: TruckFile) -> dict[str, Any]:
     """Return what the page says of a truck."""
     rows = []
     for parameter in file.parameters:
-        spread = parameter.spread.words if parameter.spread else "none given"
-        if isinstance(parameter.value, str):
-            spread = "–"
+        spread = "none given" if parameter.name in QUANTITIES else "–"
+        if parameter.spread:
+            source = f", {parameter.spread_source}" if parameter.spread_source else ""
+            spread = f"{parameter.spread.words}{source}"
         status = parameter.status.words
         heading = BY_KEY[parameter.name].heading
         rows.append((heading, parameter.given, spread, status, parameter.source))
@@ -193,12 +194,14 @@ def _words(file: TruckFile) -> dict[str, Any]:
 
 def _caution(file: TruckFile) -> str:
     """Return how far the numbers of a truck may be off, in a sentence."""
-    spreads = {parameter.spread.words for parameter in file.parameters if parameter.spread}
-    if not spreads:
+    spreads = {(file[name].spread, file[name].spread_source) for name in QUANTITIES}
+    if not any(spread for spread, _ in spreads):
         return "Its file does not say how far its parameters may be off."
     if len(spreads) > 1:
         return "Its parameters have spreads of their own: trust the trend, not the numbers."
-    return f"Any of its parameters may be off by {spreads.pop()}: trust the trend, not the numbers."
+    ((spread, source),) = spreads
+    off = f"{spread.words if spread else ''}{f' ({source})' if source else ''}"
+    return f"Any of its parameters may be off by {off}: trust the trend, not the numbers."
 
 
 def _mass_words(masses: MassRange | None) -> str:

@@ -75,7 +75,7 @@ function forceAxis(Y, bottom, top, left, right, steps) {
 /** What the lines are, above the chart at the right; with their marks where they have some. */
 function key(entries, right, y) {
   const items = [];
-  for (const [kind, words, marked] of entries.toReversed()) {
+  for (const [kind, words, marked] of [...entries].reverse()) {
     right -= 6.5 * words.length;
     const line = { x1: right - 26, x2: right - 6, y1: y - 4, y2: y - 4, class: `curve ${kind}` };
     items.push(text(words, right, y, "key", "start"), element("line", line));
