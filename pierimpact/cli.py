@@ -32,6 +32,11 @@ other, in the units of the new one. Nothing is written.
 """
 _COMPARE_EXIT_CODES = "Exit code: 0 whether or not anything changed; 2 if the input is bad."
 
+_PAGE = """\
+Write one HTML file that shows what the pier's frequency does to the peaks of engine and cargo. It
+solves the collisions itself and needs neither Python nor a network.
+"""
+
 _FIT = """\
 Fit the crush-law parameters of a truck to force records, measured or from finite elements. A
 record is a CSV file with a heading such as: time [ms], contact force [kN]; the force may also be
@@ -60,6 +65,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _collect(options.folder, options.csv)
         if options.command == "fit":
             return _fit(options)
+        if options.command == "page":
+            return _page(options.page, options.trucks)
         if options.command == "compare":
             return _compare([options.old, options.new])
         return _report(options)
@@ -143,6 +150,18 @@ def _parser() -> argparse.ArgumentParser:
     )
     compare.add_argument("old", metavar="OLD.yaml", help="case file of the revision before")
     compare.add_argument("new", metavar="NEW.yaml", help="case file of the new revision")
+    page = commands.add_parser(
+        "page", help="write the explorer as one HTML file", description=_PAGE
+    )
+    page.add_argument("page", metavar="PAGE.html", help="file to write")
+    page.add_argument(
+        "--truck",
+        dest="trucks",
+        metavar="TRUCK",
+        nargs="+",
+        default=["single-unit-8t"],
+        help="trucks to choose from: names of the catalogue or truck files (default: %(default)s)",
+    )
     _add_fit(commands)
     return parser
 
@@ -204,7 +223,8 @@ def _add_fit(commands: Any) -> None:
 
 
 def _fit(options: argparse.Namespace) -> int:
-    from pierimpact.report.fit import Treatment, fit_files, fit_table, write_files
+    from pierimpact.files.write import write_files
+    from pierimpact.report.fit import Treatment, fit_files, fit_table
 
     treatment = Treatment(
         filter=_given(options, "filter", "frequency"),
@@ -343,6 +363,15 @@ def _compare(paths: Sequence[str]) -> int:
         except InputError as error:  # which names the file, and both may have the same name
             raise InputError(str(error).replace(Path(path).name, path, 1)) from None
     print(" → ".join(paths), compare(*calculations).text(), sep="\n\n")
+    return 0
+
+
+def _page(path: str, trucks: Sequence[str]) -> int:
+    try:
+        from pierimpact.teaching.page import write_page
+    except ModuleNotFoundError as error:
+        return _needs("pages", error)
+    print(write_page(path, trucks))
     return 0
 
 

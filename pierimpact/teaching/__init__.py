@@ -5,5 +5,5 @@ it in numbers and sentences, `live` redraws figures, `explorer` joins them to th
 A `lesson` is a prediction and `questions`, with `numbers` of the student's own; `reading` and
 `checker` judge the answers, `work` keeps them, `predictions` and `exercises` are their widgets.
 `marks` collects the files of a class, `teacher` prints the answers. `tables` and `maps` show
-studies, `markup` is the HTML of all of them.
+studies, `markup` is the HTML of all of them. `page` writes the explorer that needs no Python.
 """
