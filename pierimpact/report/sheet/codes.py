@@ -29,9 +29,9 @@ class Codes(Section):
         band = result.band.quantiles() if result.band.spread else None
         return Figure(
             label="fig-codes",
-            caption="Forces of codes along the travel, the largest averages of the contact force, and "
-            "the design reaction. That of AASHTO LRFD was taken from a 25 ms average. Hatched: not "
-            "read in the code itself.",
+            caption="Forces of codes along the travel, the largest averages of the contact force, "
+            "and the design reaction. That of AASHTO LRFD was taken from a 25 ms average. Hatched: "
+            "not read in the code itself.",
             alt=f"Largest averages of the contact force: {words or 'none'}. The reaction is "
             f"{self.shown(result.design_force, 'force')}.",
             svg=draw_code_bars(
