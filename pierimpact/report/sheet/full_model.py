@@ -104,7 +104,8 @@ class FullModel(Section):
         lowest = self.calculation.governing.lowest
         lowest_values = self.number(lowest.reaction, "force"), self.number(lowest.time, "time")
         share = rounded(100.0 * lowest.reaction / self.calculation.design_force, 2)
-        rows.append(["Lowest", "", *lowest_values, f"reversal, {share} %"])
+        words = f"reversal, {share} %" if lowest.reaction < 0.0 else "no reversal"
+        rows.append(["Lowest", "", *lowest_values, words])
         time, force = self.unit("time"), self.unit("force")
         return Table(
             label="tab-peaks",
