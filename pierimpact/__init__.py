@@ -62,6 +62,7 @@ __all__ = [
     "load_truck",
     "maps",
     "peak_reactions",
+    "predictions",
     "reaction_band",
     "simulate",
     "tables",
@@ -97,7 +98,7 @@ _HOMES = {
     "vehicle.spread": ["Lognormal", "Uniform"],
     "vehicle.truck": ["MassRangeWarning", "Truck"],
 }
-_MODULES = ("exercises", "maps", "tables", "widgets")
+_MODULES = ("exercises", "maps", "predictions", "tables", "widgets")
 
 
 def __getattr__(name: str) -> Any:

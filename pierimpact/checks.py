@@ -1,6 +1,7 @@
 """The rules that inputs must meet, and the one-line errors when they do not."""
 
 import math
+import re
 import unicodedata
 from collections.abc import Collection, Iterable, Mapping
 from difflib import get_close_matches
@@ -109,6 +110,14 @@ def one_line(name: str, value: str) -> str:
     if any(unicodedata.category(letter) in _CONTROLS or letter in _MARKS for letter in value):
         raise InputError(f"{name} must be one line without control characters, got {value!r:.60}")
     return value
+
+
+def no_formula(text: str) -> str:
+    """Return text with an apostrophe before what a spreadsheet would take for a formula.
+
+    That is at the start, and after a semicolon, where many a spreadsheet starts a field.
+    """
+    return re.sub(r"(^|;)(\s*[=+\-@＝＋－＠])", r"\1'\2", text)
 
 
 def positive_array(name: str, values: ArrayLike) -> NDArray[np.float64]:

@@ -17,7 +17,8 @@ _REPORT = """\
 Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
 the case file. Where there are more cases than one, summary.html, summary.pdf and summary.csv have
 a row for each. If a case fails, the others are still calculated; it is reported at the end. With
---docx, each sheet and the summary are Word documents too.
+--docx, each sheet and the summary are Word documents too; with --binder, binder.pdf has contents,
+summary and all sheets.
 """
 _EXIT_CODES = """\
 Exit code: 0 if every case has its report; 2 if all failures are bad input; 1 if anything else
@@ -31,6 +32,11 @@ other, in the units of the new one. Nothing is written.
 """
 _COMPARE_EXIT_CODES = "Exit code: 0 whether or not anything changed; 2 if the input is bad."
 
+_PAGE = """\
+Write one HTML file that shows what the pier's frequency does to the peaks of engine and cargo. It
+solves the collisions itself and needs neither Python nor a network.
+"""
+
 _FIT = """\
 Fit the crush-law parameters of a truck to force records, measured or from finite elements. A
 record is a CSV file with a heading such as: time [ms], contact force [kN]; the force may also be
@@ -41,17 +47,29 @@ not show, which stays at its start.
 _FIT_EXIT_CODES = "Exit code: 0 if a truck was fitted; 2 if the input is bad; 1 if anything failed."
 
 
+_COLLECT = """\
+Read the answer files (*.answers.json) that the teaching notebooks write, from a folder and all
+folders below it, check the answers again, and write a table with a row a student: name or number,
+right answers in total, and for each question whether it is right and after how many tries.
+"""
+_COLLECT_EXIT_CODES = "Exit code: 0 if any file was read; 2 if none was; 1 if anything failed."
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code: 2 for bad input, 1 for any other failure."""
     options = _parser().parse_args(arguments)
     try:
         if options.command == "teach":
-            return _teach(options.app, options.folder, options.browser)
+            return _teach(options)
+        if options.command == "collect":
+            return _collect(options.folder, options.csv)
         if options.command == "fit":
             return _fit(options)
+        if options.command == "page":
+            return _page(options.page, options.trucks)
         if options.command == "compare":
             return _compare([options.old, options.new])
-        return _report(options.cases, options.output, options.docx)
+        return _report(options)
     except InputError as error:
         _complain(error)
         return 2
@@ -84,6 +102,9 @@ def _parser() -> argparse.ArgumentParser:
         "--output", metavar="DIR", default="reports", help="folder to write to (default: reports)"
     )
     report.add_argument("--docx", action="store_true", help="write Word documents too")
+    report.add_argument(
+        "--binder", action="store_true", help="write binder.pdf too: all sheets in one, bookmarked"
+    )
     teach = commands.add_parser(
         "teach",
         help="open the teaching notebooks",
@@ -101,6 +122,26 @@ def _parser() -> argparse.ArgumentParser:
     teach.add_argument(
         "--no-browser", dest="browser", action="store_false", help="do not open a browser"
     )
+    teach.add_argument(
+        "--answers",
+        metavar="NAME",
+        help="print the teacher's sheet instead: times, misconceptions, and worked answers with "
+        'the numbers of the student of this name or number; "" for those who gave none',
+    )
+    collect = commands.add_parser(
+        "collect",
+        help="collect the marks of a class in one table",
+        description=_COLLECT,
+        epilog=_COLLECT_EXIT_CODES,
+        allow_abbrev=False,
+    )
+    collect.add_argument("folder", metavar="FOLDER", help="folder with the students' answer files")
+    collect.add_argument(
+        "--csv",
+        metavar="FILE",
+        default="marks.csv",
+        help="table to write (default: %(default)s)",
+    )
     compare = commands.add_parser(
         "compare",
         help="say what changed between two case files",
@@ -109,6 +150,18 @@ def _parser() -> argparse.ArgumentParser:
     )
     compare.add_argument("old", metavar="OLD.yaml", help="case file of the revision before")
     compare.add_argument("new", metavar="NEW.yaml", help="case file of the new revision")
+    page = commands.add_parser(
+        "page", help="write the explorer as one HTML file", description=_PAGE
+    )
+    page.add_argument("page", metavar="PAGE.html", help="file to write")
+    page.add_argument(
+        "--truck",
+        dest="trucks",
+        metavar="TRUCK",
+        nargs="+",
+        default=["single-unit-8t"],
+        help="trucks to choose from: names of the catalogue or truck files (default: %(default)s)",
+    )
     _add_fit(commands)
     return parser
 
@@ -170,7 +223,8 @@ def _add_fit(commands: Any) -> None:
 
 
 def _fit(options: argparse.Namespace) -> int:
-    from pierimpact.report.fit import Treatment, fit_files, fit_table, write_files
+    from pierimpact.files.write import write_files
+    from pierimpact.report.fit import Treatment, fit_files, fit_table
 
     treatment = Treatment(
         filter=_given(options, "filter", "frequency"),
@@ -268,12 +322,31 @@ def _needs(what: str, error: ModuleNotFoundError) -> int:
     return 1
 
 
-def _teach(app: bool, folder: str, browser: bool) -> int:
+def _teach(options: argparse.Namespace) -> int:
+    if options.answers is not None:
+        from pierimpact.teaching.teacher import teachers_sheet
+
+        print(teachers_sheet(options.answers), end="")
+        return 0
     try:
-        return open_notebooks(folder, app=app, browser=browser)
+        return open_notebooks(options.folder, app=options.app, browser=options.browser)
     except TeachError as error:
         _complain(error)
         return 1
+
+
+def _collect(folder: str, table: str) -> int:
+    from pierimpact.teaching.marks import collect
+
+    marks = collect(folder)
+    try:
+        Path(table).write_text(marks.table, encoding="utf-8", newline="")
+    except OSError as error:
+        raise InputError(f"{table} cannot be written to: {error.strerror}") from None
+    print(f"{table}: students {marks.students}, files read {marks.files}", flush=True)
+    for remark in marks.remarks:
+        _complain(remark)
+    return 0
 
 
 def _compare(paths: Sequence[str]) -> int:
@@ -293,17 +366,28 @@ def _compare(paths: Sequence[str]) -> int:
     return 0
 
 
-def _report(paths: Sequence[str], output: str, docx: bool) -> int:
+def _page(path: str, trucks: Sequence[str]) -> int:
+    try:
+        from pierimpact.teaching.page import write_page
+    except ModuleNotFoundError as error:
+        return _needs("pages", error)
+    print(write_page(path, trucks))
+    return 0
+
+
+def _report(options: argparse.Namespace) -> int:
     try:
         from pierimpact.report.batch import find_cases, write_reports
     except ModuleNotFoundError as error:
         return _needs("reports", error)
-    cases = find_cases(paths)
-    batch = write_reports(cases, output, docx=docx)
+    cases = find_cases(options.cases, binder=options.binder)
+    batch = write_reports(cases, options.output, docx=options.docx, binder=options.binder)
     for report in batch.reports:
         print(*report.files, sep="\n")
     if batch.summary:
         print(*filter(None, batch.summary), sep="\n")
+    if batch.binder:
+        print(batch.binder)
     sys.stdout.flush()  # so that warnings and failures come last
     for report in batch.reports:
         for warning in report.warnings:
@@ -312,8 +396,9 @@ def _report(paths: Sequence[str], output: str, docx: bool) -> int:
         _complain(failure.reason)
     if len(cases) > 1 and batch.failures:
         _complain(f"{len(batch.failures)} of {len(cases)} cases have no report")
-    if batch.summary_failure:
-        _complain(batch.summary_failure)
+    for whole in filter(None, (batch.summary_failure, batch.binder_failure)):
+        _complain(whole)
+    if batch.summary_failure or batch.binder_failure:
         return 1
     if not batch.failures:
         return 0

@@ -93,7 +93,7 @@ def made(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(batch_module, "tqdm", bar)
         cases = find_cases([folder, other / "A.yaml"])
-        result = write_reports(cases, root / "out")
+        result = write_reports(cases, root / "out", binder=True)
     return cases, result, root / "out", bars[0]
 
 
@@ -157,10 +157,31 @@ def test_each_good_case_has_its_report_and_all_a_summary(made):
     names = ["P 1 & <b>", "A"]
     assert [report.pdf.stem for report in result.reports] == names
     expected = {f"{name}.{ending}" for name in names for ending in ("ipynb", "html", "pdf")}
-    expected |= {f"summary.{ending}" for ending in ("html", "pdf", "csv")}
+    expected |= {f"summary.{ending}" for ending in ("html", "pdf", "csv")} | {"binder.pdf"}
     assert {path.name for path in output.iterdir()} == expected
-    assert set(result.summary) == {output / f"summary.{end}" for end in ("html", "pdf", "csv")}
+    assert set(result.summary) - {None} == {
+        output / f"summary.{end}" for end in ("html", "pdf", "csv")
+    }
     assert len(cases) == 5
+
+
+def test_the_binder_has_contents_summary_and_every_sheet(made):
+    _, result, output, _ = made
+    bound = pypdf.PdfReader(result.binder)
+    documents = [result.summary.pdf, *(report.pdf for report in result.reports)]
+    pages = [len(pypdf.PdfReader(document).pages) for document in documents]
+    assert len(bound.pages) == 1 + sum(pages)
+    titles = [each["/Title"] for each in bound.outline if not isinstance(each, list)]
+    assert titles == [
+        "Contents",
+        "Summary (all)",
+        "Round column, 36 in (P 1 & <b>)",
+        "@x;-y (A)",
+    ]
+    contents = bound.pages[0].extract_text()
+    for failure in result.failures:
+        assert failure.reason in contents
+    assert result.binder == output / "binder.pdf"
 
 
 def test_each_bad_case_has_one_line_that_says_why(made):
@@ -338,16 +359,10 @@ def example(tmp_path_factory):
     return results_of(write_case(tmp_path_factory.mktemp("one") / "one.yaml"))
 
 
-def first_cells(page, heading="Case"):
-    """Return the first cells of the rows of the table with these results."""
-    rows = rows_of(page)
-    start = next(n for n, row in enumerate(rows) if row[0] == heading and "Resistance" in row)
-    cells = []
-    for row in rows[start + 1 :]:
-        if row[0] == heading:
-            break
-        cells.append(row[0])
-    return cells
+def ranked_in(page):
+    """Return the names of the cases in the order of the table of results."""
+    table = page.partition('id="tab-results"')[2].partition("</table>")[0]
+    return [row[0] for row in rows_of(table)[1:]]
 
 
 def test_the_worst_case_stands_first(example):
@@ -364,7 +379,7 @@ def test_the_worst_case_stands_first(example):
     blocks = summary_blocks(rows)
     page = "".join(block._repr_html_() for block in blocks)
     by_name = {row.name: row.results for row in rows}
-    ranked = first_cells(page)
+    ranked = ranked_in(page)
     assert sorted(ranked) == sorted(by_name)
     for one, other in pairwise(by_name[name] for name in ranked):
         worst, next_worst = (max(each.utilisations.values(), default=None) for each in (one, other))
@@ -425,33 +440,32 @@ def test_the_summary_has_the_date_of_the_last_revision(example):
 
 def test_every_warning_stands_by_its_case_and_in_the_csv(example):
     rows = [
-        Row("P1", faked(example, warnings=("Worst.", "Known by all.", "<b> & so on.")), []),
+        Row("P1", faked(example, warnings=("Of two.", "Known by all.", "<b> & so on.")), []),
         Row("P2", None, ["P2.yaml: is not UTF-8 text"]),
-        Row("P3", faked(example, warnings=("Known by all.", "Its own.")), ["a letter is missing"]),
+        Row("P3", faked(example, warnings=("Known by all.", "Of two.")), ["a letter is missing"]),
         Row("P4", faked(example, warnings=("Known by all.",)), []),
     ]
     page = "".join(block._repr_html_() for block in summary_blocks(rows))
     assert "<b>" not in page
-    assert sorted(row for row in rows_of(page) if len(row) == 2) == sorted(
-        [
-            ["Case", "Warning"],
-            ["all cases", "Known by all."],
-            ["P1", "Worst."],
-            ["P1", "<b> & so on."],
-            ["P3", "Its own."],
-            ["P3", "a letter is missing"],
-        ]
-    )
+    order = ranked_in(page)
+    found = [row for row in rows_of(page) if len(row) == 2]
+    assert found[0] == ["Warning", "Cases"]
+    assert {tuple(row) for row in found[1:]} == {
+        ("Known by all.", "all"),
+        ("Of two.", ", ".join(name for name in order if name != "P4")),
+        ("<b> & so on.", "P1"),
+        ("a letter is missing", "P3"),
+    }
+    assert len(found) == 5
     lines = list(csv.DictReader(io.StringIO(summary_csv(rows), newline="")))
     assert [(line["warnings"], line["reason"]) for line in lines] == [
-        ("Worst.; Known by all.; <b> & so on.", ""),
+        ("Of two.; Known by all.; <b> & so on.", ""),
         ("", "P2.yaml: is not UTF-8 text"),
-        ("Known by all.; Its own.; a letter is missing", ""),
+        ("Known by all.; Of two.; a letter is missing", ""),
         ("Known by all.", ""),
     ]
-    # What a case alone is warned of is its own.
     alone = "".join(block._repr_html_() for block in summary_blocks(rows[3:]))
-    assert [row for row in rows_of(alone) if len(row) == 2][1:] == [["P4", "Known by all."]]
+    assert [row for row in rows_of(alone) if len(row) == 2][1:] == [["Known by all.", "P4"]]
 
 
 def test_a_project_of_their_own_is_a_column(tmp_path):
@@ -482,7 +496,7 @@ def test_exit_codes(tmp_path, monkeypatch, capsys, outcomes, code):
     names = "abc"[: len(outcomes)]
     cases = [write_case(tmp_path / f"{name}.yaml") for name in names]
 
-    def write(case, output, on_stage):
+    def write(case, output, docx, on_stage):
         if error := outcomes[names.index(case.stem)]:
             raise error
         files = (output / f"{case.stem}.{ending}" for ending in ("ipynb", "html", "pdf"))
@@ -508,15 +522,15 @@ def test_exit_codes(tmp_path, monkeypatch, capsys, outcomes, code):
 def test_one_case_has_no_summary(tmp_path, monkeypatch):
     case = write_case(tmp_path / "a.yaml")
     report = Report(Path("a.ipynb"), Path("a.html"), Path("a.pdf"), [], results_of(case))
-    monkeypatch.setattr(batch_module, "write_report", lambda case, output, on_stage: report)
+    monkeypatch.setattr(batch_module, "write_report", lambda *_, **__: report)
     result = write_reports([case], tmp_path / "out", progress=False)
-    assert result == ([report], [], None, "")
+    assert result == ([report], [], None, "", None, "")
 
 
 def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
     cases = [write_case(tmp_path / f"{name}.yaml") for name in "ab"]
 
-    def write(case, output, on_stage):
+    def write(case, output, docx, on_stage):
         return Report(Path("x.ipynb"), Path("x.html"), Path("x.pdf"), [], results_of(case))
 
     def fail(rows):
@@ -529,6 +543,18 @@ def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
     lines = capsys.readouterr()
     assert lines.out.splitlines() == ["x.ipynb", "x.html", "x.pdf"] * 2
     assert lines.err == "pierimpact: the summary: ValueError: no CSV\n"
+    assert list(output.iterdir()) == []
+
+
+def test_a_binder_that_fails_leaves_the_rest(tmp_path, monkeypatch, capsys):
+    case = write_case(tmp_path / "a.yaml")
+    report = Report(Path("x.ipynb"), Path("x.html"), Path("x.pdf"), [], results_of(case))
+    monkeypatch.setattr(batch_module, "write_report", lambda *_, **__: report)
+    output = tmp_path / "out"
+    assert cli.main(["report", str(case), "--binder", "--output", str(output)]) == 1
+    lines = capsys.readouterr()
+    assert lines.out.splitlines() == ["x.ipynb", "x.html", "x.pdf"]
+    assert lines.err.startswith("pierimpact: the binder: FileNotFoundError: ")
     assert list(output.iterdir()) == []
 
 

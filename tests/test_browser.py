@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from pierimpact.teaching.questions import QUESTIONS
+from pierimpact.teaching.questions import LESSONS as COURSE
+from pierimpact.teaching.questions import questions as questions_of
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.units import DIMENSIONS, printed
 
@@ -163,6 +164,18 @@ class Page:
     def choose(self, words, choice):
         self.beside(words, f"option[. = '{choice}']").click()
 
+    def tick(self, choice):
+        """Tick the radio button with these words."""
+
+        def ticked():
+            for label in self.all(".pierimpact-live .widget-radio-box label"):
+                if label.text.strip() == choice:
+                    label.click()
+                    return True
+            return False
+
+        until(ticked)
+
     def type(self, words, text):
         self.fill(self.beside(words, "input"), text)
 
@@ -311,16 +324,23 @@ def test_no_error_reached_the_notebook(page):
 @pytest.mark.parametrize("name", LESSONS)
 def test_a_lesson_runs_and_its_exercises_answer(browser, server, name):
     lesson = Lesson(browser, server, name)
-    questions = QUESTIONS[name.partition("_")[2]]
+    subject = name.partition("_")[2]
+    questions = questions_of(subject)
     until(lambda: f"0 of {len(questions)} solved" in lesson.text())
     question = next(question for question in questions if not question.choices)
     box = lesson.one(".pierimpact-live input[placeholder*='number']")
     unit = f" {DIMENSIONS[question.dimension].si}" if question.dimension else ""
-    lesson.fill(box, f"{1e3 * question.answer():.6g}{unit}")
+    lesson.fill(box, f"{1e3 * question.answer:.6g}{unit}")
     until(lambda: "out by 1000" in lesson.text())
-    lesson.fill(box, f"{question.answer():.6g}{unit}")
+    lesson.fill(box, f"{question.answer:.6g}{unit}")
     until(lambda: f"1 of {len(questions)} solved" in lesson.text())
     until(lambda: "solved after 2 tries" in lesson.text())
+    assert not any(figure.is_displayed() for figure in lesson.figures()[:1])
+    right = COURSE[subject].prediction.answer()
+    lesson.tick(right)
+    lesson.push("Lock my prediction")
+    until(lambda: f"You predicted: {right}" in lesson.text())
+    until(lambda: lesson.figures()[0].is_displayed())
     lesson.holds_no_error()
 
 

@@ -308,7 +308,6 @@ def test_levels_have_their_old_names_as_well(old, level):
     )
 
 
-
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

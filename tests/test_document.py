@@ -3,11 +3,16 @@
 import io
 import json
 import re
+import shutil
+import subprocess
 
 import nbformat
+import numpy as np
 import pypdf
 import pytest
 from nbformat import v4
+from PIL import Image
+from scipy.ndimage import find_objects, label
 from test_report import NASTY, Text, squeezed
 from word_file import WordFile
 
@@ -120,6 +125,44 @@ def test_numbers_go_on_from_block_to_block():
         ("tab-x", "Table&nbsp;1"),
         ("tab-absent", "Table"),
     ]
+
+
+@pytest.mark.skipif(
+    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
+)
+def test_dots_stand_over_their_letters(tmp_path):
+    """In Chromium, whose fonts are DejaVu's where no others are: a mark for each dot, above."""
+    formulas = ("x", r"\dot x", r"\ddot x", r"\ddot m", r"\hat F")
+    cells = [v4.new_markdown_cell(f"${formula}$") for formula in formulas]
+    page, _ = SheetHTMLExporter().from_notebook_node(v4.new_notebook(cells=cells))
+    style = (
+        "<style>main p { margin: 0; height: 100px; font-size: 50px; line-height: 100px }</style>"
+    )
+    (tmp_path / "page.html").write_text(page.replace("</head>", f"{style}</head>"), "utf-8")
+    subprocess.run(
+        [
+            "chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic",
+            "--no-first-run", "--disable-background-networking", "--disable-component-update",
+            "--disable-sync", f"--user-data-dir={tmp_path / 'profile'}", "--window-size=600,800",
+            f"--screenshot={tmp_path / 'page.png'}", (tmp_path / "page.html").as_uri(),
+        ],
+        capture_output=True, check=True, timeout=600,
+    )  # fmt: skip
+    ink = np.asarray(Image.open(tmp_path / "page.png").convert("L")) < 128
+    marks, _ = label(ink, np.ones((3, 3)))
+    boxes = sorted(find_objects(marks), key=lambda box: box[0].start)
+    rows = [[], [], [], [], []]
+    top = min(box[0].start for box in boxes) // 100 * 100
+    for box in boxes:
+        rows[(box[0].start - top) // 100].append(box)
+    assert [len(row) for row in rows] == [1, 2, 3, 3, 2]
+    for row in rows:
+        letter = max(row, key=lambda box: box[1].stop - box[1].start)
+        for mark in row:
+            if mark is not letter:
+                assert mark[0].stop <= letter[0].start
+                middle = (mark[1].start + mark[1].stop) / 2
+                assert letter[1].start - 2 <= middle <= letter[1].stop + 2
 
 
 def test_a_notebook_without_a_title_block_has_a_pdf_too():

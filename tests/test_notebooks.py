@@ -45,6 +45,7 @@ def test_its_page_shows_stills_instead_of_widgets(executed):
     assert page.count('class="pierimpact-still"') >= 1
     assert "pierimpact teach" in page
     assert "body.jp-Notebook:not([data-voila]) .pierimpact-live {display:none}" in page
+    assert re.search(r"pierimpact-still[^>]*>(?:(?!pierimpact-live).)*data:image/png", page, re.S)
 
 
 def test_its_own_page_needs_no_network(executed):
@@ -93,6 +94,9 @@ def test_it_holds_prose_and_one_call_per_idea(path):
 @pytest.mark.parametrize("path", NOTEBOOKS[:-1], ids=lambda path: path.stem)
 def test_it_has_the_parts_of_a_lesson(path):
     text = path.read_text(encoding="utf-8")
-    for part in ("**Purpose.**", "**You need**", "What to notice", "## Exercises", "## Sources",
-                 "exercises.score("):  # fmt: skip
-        assert part in text
+    parts = ("**Purpose.**", "**You need**", "exercises.begin(", "## Predict, then see",
+             "predictions.ask(", "predictions.reveal(", "What to notice", "## What many believe",
+             "exercises.score(", "## In short", "## Sources")  # fmt: skip
+    assert [part for part in parts if part not in text] == []
+    assert text.index("predictions.ask(") < text.index("predictions.reveal(")
+    assert "widgets." not in text[: text.index("predictions.reveal(")]

@@ -11,11 +11,14 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import nbformat
+import page as validator
 import papermill
 import pypdf
 import pytest
+import typst
 import yaml
 from sheet_page import US_CASE
+from word_file import WordFile
 
 from pierimpact.checks import InputError
 from pierimpact.files.case import read_case_file
@@ -94,7 +97,7 @@ def us(tmp_path_factory):
     folder = tmp_path_factory.mktemp("us")
     case = folder / "us.yaml"
     case.write_text(yaml.safe_dump(NASTY_CASE, allow_unicode=True), encoding="utf-8")
-    return case, write_report(case, folder / "out")
+    return case, write_report(case, folder / "out", docx=True)
 
 
 @pytest.fixture(params=["si", "us"])
@@ -102,10 +105,13 @@ def made(request):
     return request.getfixturevalue(request.param)
 
 
-def test_three_files_and_nothing_else(made):
+def test_the_files_of_a_report_and_nothing_else(made):
     case, files = made
     names = {f"{case.stem}.{ending}" for ending in ("ipynb", "html", "pdf")}
+    if case.stem == "us":
+        names.add("us.docx")
     assert {path.name for path in files.pdf.parent.iterdir()} == names
+    assert {path.name for path in files.files} == names
     assert files.warnings == []
 
 
@@ -223,6 +229,42 @@ def test_a_browser_makes_no_request(us, tmp_path):
     assert requested_by(asking, tmp_path) == {image}
 
 
+CUT = """
+<iframe style="width: 400px; height: 900px; border: 0" src="PAGE"></iframe>
+<pre id="cut"></pre>
+<script>
+onload = () => {
+  const page = document.querySelector("iframe").contentDocument;
+  const cut = [...page.querySelectorAll("main *")].filter(each => {
+    for (let box = each; box; box = box.parentElement)
+      if (getComputedStyle(box).overflowX === "auto") return false;
+    return each.getBoundingClientRect().right > 400.5;
+  });
+  document.querySelector("#cut").textContent =
+    `${page.querySelectorAll("main *").length} ${page.documentElement.scrollWidth} ${cut.length}`;
+};
+</script>
+"""
+
+
+@pytest.mark.skipif(
+    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
+)
+def test_a_narrow_screen_cuts_nothing(made, tmp_path):
+    (tmp_path / "view.html").write_text(CUT.replace("PAGE", made[1].html.as_uri()), "utf-8")
+    done = subprocess.run(
+        [
+            *BROWSER.split(), f"--user-data-dir={tmp_path / 'profile'}",
+            "--allow-file-access-from-files", (tmp_path / "view.html").as_uri(),
+        ],
+        capture_output=True, encoding="utf-8", check=True, timeout=600,
+    )  # fmt: skip
+    elements, width, cut = re.search(r'id="cut">(\d+) (\d+) (\d+)<', done.stdout).groups()
+    assert int(elements) > 1000
+    assert int(width) <= 400
+    assert int(cut) == 0
+
+
 def test_mathematics_is_mathml_and_nothing_is_left_raw(si):
     text = si[1].html.read_text("utf-8")
     page = Text(text)
@@ -249,6 +291,7 @@ def test_text_from_users_prints_as_typed(us):
     page = Text(files.html.read_text("utf-8"))
     # In the title block, in both tables of sources and among the notes.
     assert squeezed(page.text).count(squeezed(NASTY)) == 4
+    assert squeezed(WordFile(files.docx.read_bytes()).text).count(squeezed(NASTY)) == 4
     assert not [tag for tag, _ in page.tags if tag in ("b", "script")]
     sheet = squeezed("".join(pdf_text(files.pdf)))
     for text in (NASTY_CASE["element"], NASTY_CASE["prepared_by"], NASTY_CASE["checked_by"], "<B>"):
@@ -276,8 +319,10 @@ def test_no_word_runs_over_what_stands_beside_it():
     title = TitleBlock(title="x", subtitle="y", entries=entries, date="2026-03-01", paper="a4")
     pdf, _ = SheetPDFExporter().from_notebook_node(notebook_of([title]))
     text = pypdf.PdfReader(io.BytesIO(pdf)).pages[0].extract_text().replace("\u200b", "")
-    assert word in squeezed(text)
-    assert max(map(len, re.findall("R+", text))) < 40  # 1.4 of 5.4 parts of 168 mm
+    # In the title block and, as it is never cut, in the header of the page.
+    assert squeezed(text).count(word) == 2
+    lines = [len(line) for line in re.findall("R+", text)]
+    assert max(lines) < 60  # of about 100 letters across the page
 
 
 def test_what_no_font_has_is_told(us):
@@ -346,6 +391,9 @@ def test_us_reports_print_no_metric_unit(us):
     own = own[: own.index("The case as it was read")]  # the files are as they are
     own = re.sub(r"\([\d.]+ \S+\)|given as [\d\u202f., A-Za-z]+|cited as [\d.]+ m", "", own)
     metric = r"(?<![\w.])\d[\d.\u202f]*\s(kN|MN|GPa|m|mm|kg|km/h|t|kN·m|MN/m|kg/m³)(?![\w/·-])"
+    # What was given in metric units says so, behind its value in the sheet's own.
+    given = r"\d[\d.\s]*\s[kMG]?[\w·/³]+"
+    own = re.sub(rf"(given as|cited as) {given}(, {given})*|\({given}\)", "", own)
     assert [match[0] for match in re.finditer(metric, own)] == []
 
 
@@ -369,6 +417,43 @@ def test_the_page_has_landmarks_and_table_heads(made):
     assert heads
     assert {attributes["scope"] for attributes in heads} == {"col", "row"}
     assert dict(tags)["html"] == {"lang": "en"}
+
+
+@pytest.mark.parametrize("profile", ["2a", "ua1"])
+def test_a_validator_of_others_finds_no_fault(made, profile):
+    found = validator.validate_pdf(made[1].pdf, profile=profile)
+    assert found.rules.total > 100
+    assert [failure.message for failure in found.failures] == []
+
+
+def test_that_validator_finds_faults(tmp_path):
+    (tmp_path / "plain.pdf").write_bytes(typst.compile(b"A line"))
+    for profile in ("2a", "ua1"):
+        assert not validator.is_pdf_compliant(tmp_path / "plain.pdf", profile=profile)
+
+
+def test_each_file_is_called_by_its_element(si, us):
+    titles = [pypdf.PdfReader(files.pdf).metadata.title for _, files in (si, us)]
+    assert titles[0] == (
+        "Round column, 36 in — Full-scale tests of TTI 9-4973-2, the column as a bridge column — "
+        "Truck collision with a bridge pier"
+    )
+    assert titles[1].startswith(f"{NASTY_CASE['element']} — {NASTY[:40]}")
+    for (_, files), title in zip((si, us), titles, strict=True):
+        (shown,) = re.findall("<title>(.*?)</title>", files.html.read_text("utf-8"), re.DOTALL)
+        assert html.unescape(shown) == title
+
+
+def test_every_heading_is_a_bookmark(made):
+    outline = [each["/Title"] for each in flat(pypdf.PdfReader(made[1].pdf).outline)]
+    headings = re.findall(r"<h([23])\s[^>]*>(.*?)</h[23]>", made[1].html.read_text("utf-8"), re.S)
+    found = [squeezed(title) for title in outline]
+    assert found == [squeezed(Text(heading).text) for _, heading in headings]
+
+
+def flat(outline):
+    """Return the entries of an outline, those below others after them."""
+    return [e for each in outline for e in (flat(each) if isinstance(each, list) else [each])]
 
 
 def test_the_pdf_says_what_it_conforms_to(made):

@@ -4,13 +4,13 @@ import math
 import re
 
 import pytest
+from pierimpact.report.sheet.summary import limits_of_the_study
 from sheet_page import US_CASE
 
 from pierimpact.certainty import Certainty
 from pierimpact.design.codes import aashto_lrfd, aashto_lrfd_former, code_forces
 from pierimpact.files.case import case_from
 from pierimpact.report.sheet import Sheet
-from pierimpact.report.sheet.summary import limits_of_the_study
 
 PSI = 0.45359237 * 9.80665 / 0.0254**2
 

@@ -126,8 +126,8 @@ def _read(path: Path, *, follow: bool) -> CaseFile:
         if shared is not None:
             own = {key: value for key, value in values.items() if value is not None}
             values = values | shared.values | own
-        sha256 = None if shared is None else shared.sha256
-        case = _case(values, path.parent, sha256, path.name, follow=follow)
+        shared_sha256 = None if shared is None else shared.sha256
+        case = _case(values, path.parent, shared_sha256, path.name, follow=follow)
     except OSError as error:
         raise InputError(f"{path.name}: cannot be read: {error.strerror}") from None
     except InputError as error:

@@ -20,7 +20,7 @@ class Amplification(NamedTuple):
     ratio : ndarray
         Frequency ratios β.
     impulse, static : ndarray
-        The limits of S for a soft, heavy pier and for a stiff one.
+        The limits of S for a soft pier, without damping, and for a stiff one.
     closed, exact : ndarray
         S by the closed form, and of the two-degree-of-freedom system.
     """

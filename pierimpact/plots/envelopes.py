@@ -49,7 +49,7 @@ def draw_envelopes(
 ) -> str:
     """Draw the envelopes of shear and moment side by side, with the resistances; return SVG.
 
-    168 × 78 mm. Filled: the column as a beam; dashed: under the reaction as a static force; dotted:
+    168 × 72 mm. Filled: the column as a beam; dashed: under the reaction as a static force; dotted:
     under the smallest reaction, as the pier swings back.
 
     Parameters
@@ -66,7 +66,7 @@ def draw_envelopes(
     """
     size = unit_size("length", system)
     margins = {"left": 11.0, "right": 2.0, "bottom": 8.0, "top": 1.0}
-    with page_figure(TEXT_WIDTH, 78.0, **margins, wspace=0.05) as figure:
+    with page_figure(TEXT_WIDTH, 72.0, **margins, wspace=0.05) as figure:
         panels: Any = figure.subplots(1, 2, sharey=True)
         labels: list[Label] = []
         for axes, quantity, resistance in zip(panels, _QUANTITIES, resistances, strict=True):

@@ -22,7 +22,7 @@ _ROW = 0.7  # height of a bar, over that of its row
 def draw_history(history: CollisionHistory, system: str) -> str:
     """Draw reaction and contact force against time, and below when the springs press; return SVG.
 
-    168 × 70 mm. The bars are pale while sheet metal crumples, and dark from when engine or cargo
+    168 × 64 mm. The bars are pale while sheet metal crumples, and dark from when engine or cargo
     meets the pier until it leaves it.
 
     Parameters
@@ -34,7 +34,7 @@ def draw_history(history: CollisionHistory, system: str) -> str:
     """
     ms, force = unit_size("time", system), unit_size("force", system)
     margins = {"left": 15.0, "right": 3.0, "bottom": 8.0, "top": 2.0}
-    with page_figure(TEXT_WIDTH, 70.0, **margins, hspace=0.06) as figure:
+    with page_figure(TEXT_WIDTH, 64.0, **margins, hspace=0.06) as figure:
         axes, strip = figure.subplots(2, 1, sharex=True, height_ratios=(6.0, 1.0))
         time = history.time / ms
         axes.axhline(0.0, color=INK, linewidth=0.5)

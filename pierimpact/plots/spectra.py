@@ -38,7 +38,7 @@ _NAMED, _APART = 2.0, 1.3
 def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
     """Draw engine and cargo reaction against pier frequency, this pier marked; return SVG.
 
-    168 × 64 mm. Thick: the full model; thin and dashed: the spectrum method. Shaded where the cargo
+    168 × 58 mm. Thick: the full model; thin and dashed: the spectrum method. Shaded where the cargo
     governs, by the full model.
 
     Parameters
@@ -52,7 +52,7 @@ def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
     """
     size, here = unit_size("force", system), int(np.argmin(np.abs(spectrum.values - frequency)))
     margins = {"left": 15.0, "right": 2.0, "bottom": 8.0, "top": 1.5}
-    with page_figure(TEXT_WIDTH, 64.0, **margins) as figure:
+    with page_figure(TEXT_WIDTH, 58.0, **margins) as figure:
         axes = figure.add_subplot()
         axes.axvline(frequency, color=INK, linewidth=0.6)
         curves = {

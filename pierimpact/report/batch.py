@@ -27,6 +27,7 @@ from pierimpact.report.write import (
 
 ENDINGS = (".yaml", ".yml")
 SUMMARY = "summary"  # name of the files of the summary, without ending
+BINDER = "binder"  # name of the file of all sheets in one, without ending
 
 # Nearly all the work is the kernels', which are processes of their own.
 _AT_ONCE = min(4, os.cpu_count() or 1)
@@ -56,9 +57,11 @@ class Batch(NamedTuple):
     failures: list[Failure]
     summary: Summary | None
     summary_failure: str = ""  #: why the summary could not be written, in one line
+    binder: Path | None = None
+    binder_failure: str = ""  #: why the binder could not be written, in one line
 
 
-def find_cases(paths: Iterable[str | Path]) -> list[Path]:
+def find_cases(paths: Iterable[str | Path], *, binder: bool = False) -> list[Path]:
     """Return the case files at the given paths, each once.
 
     Parameters
@@ -66,6 +69,8 @@ def find_cases(paths: Iterable[str | Path]) -> list[Path]:
     paths : iterable of str or Path
         Case files, and folders, which stand for the *.yaml and *.yml in them, sorted by name;
         subfolders are left alone.
+    binder : bool, optional
+        Whether the cases will be bound, so that none may be called as the binder is.
 
     Raises
     ------
@@ -85,7 +90,7 @@ def find_cases(paths: Iterable[str | Path]) -> list[Path]:
                 raise InputError(f"{path}: no case in this folder, no *.yaml and no *.yml")
         for case in cases:
             found.setdefault((case.name, os.path.realpath(case)), case)
-    _refuse_same_names(list(found.values()))
+    _refuse_same_names(list(found.values()), binder)
     return list(found.values())
 
 
@@ -94,12 +99,13 @@ def write_reports(
     output_dir: str | Path = "reports",
     *,
     docx: bool = False,
+    binder: bool = False,
     progress: bool = True,
 ) -> Batch:
     """Write the report of each case and, of more than one, summary.html, .pdf and .csv.
 
-    A case that fails stops none of the others, and a summary that fails leaves the reports. There
-    is no summary if no case has a report.
+    A case that fails stops none of the others, and a summary or a binder that fails leaves the
+    reports. There is neither if no case has a report.
 
     Parameters
     ----------
@@ -109,6 +115,8 @@ def write_reports(
         Folder to write to; created if it does not exist.
     docx : bool, optional
         Whether to write each sheet, and the summary, as a Word document too.
+    binder : bool, optional
+        Whether to write binder.pdf too: contents, summary and all sheets in one, with bookmarks.
     progress : bool, optional
         Whether to show a progress bar if the output is a terminal.
 
@@ -123,16 +131,22 @@ def write_reports(
     results = _write_all(cases, output_dir, docx, progress)
     reports = [result for result in results if isinstance(result, Report)]
     failures = [result for result in results if isinstance(result, Failure)]
-    if len(cases) == 1 or not reports:
-        return Batch(reports, failures, None)
-    try:
-        return Batch(reports, failures, _write_summary(results, output_dir, docx))
-    except Exception as error:
-        return Batch(reports, failures, None, f"the summary: {_line(reason_of(error))}")
+    batch = Batch(reports, failures, None)
+    if len(cases) > 1 and reports:
+        try:
+            batch = batch._replace(summary=_write_summary(results, output_dir, docx))
+        except Exception as error:
+            batch = batch._replace(summary_failure=f"the summary: {_line(reason_of(error))}")
+    if binder and reports:
+        try:
+            batch = batch._replace(binder=_write_binder(results, output_dir))
+        except Exception as error:
+            batch = batch._replace(binder_failure=f"the binder: {_line(reason_of(error))}")
+    return batch
 
 
-def _refuse_same_names(cases: Sequence[Path]) -> None:
-    """Refuse cases whose files would overwrite each other's, or the summary."""
+def _refuse_same_names(cases: Sequence[Path], binder: bool) -> None:
+    """Refuse cases whose files would overwrite each other's, the summary or the binder."""
     owners: dict[str, Path] = {}
     for case in cases:
         for name in (case.stem, f"{case.stem}.failed"):
@@ -144,6 +158,8 @@ def _refuse_same_names(cases: Sequence[Path]) -> None:
                 )
         if len(cases) > 1 and case.stem.casefold() == SUMMARY:
             raise InputError(f"{case} would overwrite the summary of the cases: rename it")
+        if binder and case.stem.casefold() == BINDER:
+            raise InputError(f"{case} would overwrite the binder of the cases: rename it")
 
 
 class _Stopped(BaseException):
@@ -230,18 +246,35 @@ def _line(error: Exception | str) -> str:
     return " ".join(str(error).encode("utf-8", "backslashreplace").decode().split())
 
 
-def _write_summary(results: Sequence[Report | Failure], output_dir: Path, docx: bool) -> Summary:
-    """Write the summary in all its formats, all or none."""
-    notebook_of = import_module("pierimpact.report.exporters").notebook_of  # slow to import
-    rows = [
+def _rows(results: Sequence[Report | Failure]) -> list[Row]:
+    """Return the rows of the summary."""
+    return [
         Row(result.html.stem, result.results, result.warnings)
         if isinstance(result, Report)
         else Row(result.case.stem, None, [result.reason])
         for result in results
     ]
+
+
+def _write_summary(results: Sequence[Report | Failure], output_dir: Path, docx: bool) -> Summary:
+    """Write the summary in all its formats, all or none."""
+    notebook_of = import_module("pierimpact.report.exporters").notebook_of  # slow to import
+    rows = _rows(results)
     with folder_for(output_dir, SUMMARY) as folder:
         endings = ("html", "pdf", "csv", "docx")[: None if docx else -1]
         html, pdf, csv, *word = (folder / f"{SUMMARY}.{ending}" for ending in endings)
         convert(notebook_of(summary_blocks(rows)), (html, pdf, *word))
         csv.write_bytes(summary_csv(rows).encode("utf-8"))
         return Summary(*put_in_place((html, pdf, csv, *word), output_dir))
+
+
+def _write_binder(results: Sequence[Report | Failure], output_dir: Path) -> Path:
+    """Write the binder of all sheets, and of the summary where there are more than one."""
+    bound = import_module("pierimpact.report.binder").bound_reports  # slow to import
+    reports = [result for result in results if isinstance(result, Report)]
+    with folder_for(output_dir, BINDER) as folder:
+        binder = folder / f"{BINDER}.pdf"
+        summary = summary_blocks(_rows(results))
+        binder.write_bytes(bound(reports, summary, with_summary=len(results) > 1))
+        (in_place,) = put_in_place((binder,), output_dir)
+        return in_place

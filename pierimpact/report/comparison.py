@@ -14,13 +14,14 @@ from typing import Any, NamedTuple
 from pierimpact.files.case import Case
 from pierimpact.files.inputs import KEYS, Inputs, SectionInputs
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.document.blocks import Block, Notes, Paragraph
+from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
 from pierimpact.report.results import Results
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import printed, rounded
 
 NOT_THERE = "—"
+_RETYPED = "The same value, typed in another way"
 # Keys that are no values of their own, and that which says what this case is compared with.
 _APART = ("assumed", "sources", "notes", "revisions", "steps", "truck", "supersedes")
 _WIDEST = (36, 26, 26, 9)  # columns of the table in plain text [characters]
@@ -71,47 +72,50 @@ class Comparison:
 
     def text(self) -> str:
         """Return the changes as tables in plain text."""
-        parts = [
-            *(_table_in_text(heading, changes) for heading, changes in self._tables() if changes),
-            *(
-                "\n".join([heading, *(_item(text) for text in warnings)])
-                for heading, warnings in self._warnings()
-            ),
-        ]
-        if not self.changed:
-            parts.append("Nothing changed: the same inputs and the same results.")
-        elif not self.results:
-            parts.append("No result changed.")
-        if self.retyped:
-            parts.append("\n".join(map(_item, self._retyped())))
+        parts = [_table_in_text(heading, changes) for heading, changes in self._tables()]
+        if self._sentence:
+            parts.append(self._sentence)
+        lists = {
+            "Warnings that came": self.came,
+            "Warnings that went": self.went,
+            _RETYPED: self._retyped(),
+        }
+        for heading, texts in lists.items():
+            if texts:
+                parts.append("\n".join([heading, *map(_item, texts)]))
         return "\n\n".join(parts)
 
     def blocks(self) -> list[Block]:
         """Return the changes as the blocks of a sheet."""
-        if not self.changed:
-            blocks: list[Block] = [Paragraph("Neither inputs nor results changed.")]
-        else:
-            blocks = [_table(heading, changes) for heading, changes in self._tables() if changes]
-            if not self.results:
-                blocks.append(Paragraph("No result changed."))
-        for heading, warnings in self._warnings():
-            blocks += [Paragraph(f"{heading}:"), Notes(warnings)]
-        return [*blocks, Notes(self._retyped())] if self.retyped else blocks
+        blocks = [_table(heading, changes) for heading, changes in self._tables()]
+        if self._sentence:
+            blocks.append(Paragraph(self._sentence))
+        if self.came or self.went:
+            warnings = {"came": self.came, "went": self.went}
+            blocks.append(
+                Table(
+                    label="tab-changed-warnings",
+                    caption="Warnings that came or went.",
+                    columns=columns("Change", wide("Warning")),
+                    rows=[[change, text] for change, texts in warnings.items() for text in texts],
+                )
+            )
+        if self.retyped:
+            blocks.append(Paragraph(f"{_RETYPED}: {'; '.join(self._retyped())}."))
+        return blocks
+
+    @property
+    def _sentence(self) -> str:
+        if self.results:
+            return ""
+        return "No result changed." if self.changed else "No input and no result changed."
 
     def _tables(self) -> list[tuple[str, Sequence[Change]]]:
-        return [("Inputs", self.inputs), ("Results", self.results)]
-
-    def _warnings(self) -> Iterator[tuple[str, Sequence[str]]]:
-        if self.came:
-            yield "Warnings that came", self.came
-        if self.went:
-            yield "Warnings that went", self.went
+        tables = [("Inputs", self.inputs), ("Results", self.results)]
+        return [(heading, changes) for heading, changes in tables if changes]
 
     def _retyped(self) -> list[str]:
-        return [
-            f"{name}: {old} before, {new} now, the same value."
-            for name, old, new, _ in self.retyped
-        ]
+        return [f"{name}, {old} before, {new} now" for name, old, new, _ in self.retyped]
 
 
 def compare(old: Calculation, new: Calculation) -> Comparison:

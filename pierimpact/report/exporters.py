@@ -12,8 +12,9 @@ import re
 import string
 import subprocess
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import typst
@@ -22,7 +23,7 @@ from markupsafe import Markup
 from nbconvert.exporters.templateexporter import TemplateExporter
 from nbformat import NotebookNode, v4
 from pypandoc import get_pandoc_path
-from traitlets import default
+from traitlets import Int, Tuple, default
 
 from pierimpact.report.document.blocks import BLOCK_MIME, Block, for_html
 from pierimpact.resources import shipped
@@ -190,7 +191,15 @@ class SheetHTMLExporter(_SheetExporter):
     def _pandoc(self, pieces: list[str]) -> list[str]:
         # The LaTeX that pandoc leaves as an annotation would be found by a search of the page.
         annotation = re.compile(r"<annotation .*?</annotation>", re.DOTALL)
-        return [annotation.sub("", piece) for piece in super()._pandoc(pieces)]
+        return [
+            _ACCENT.sub(lambda mark: mark[1] + _SPACING[mark[2]], annotation.sub("", piece))
+            for piece in super()._pandoc(pieces)
+        ]
+
+
+# A combining accent stands beside its letter in Chromium; the same as a character of its own, over.
+_SPACING = {"\u0302": "ˆ", "\u0303": "˜", "\u0304": "¯", "\u0307": "˙", "\u0308": "¨"}
+_ACCENT = re.compile(f'(<mo accent="true"[^>]*>)([{"".join(_SPACING)}])')
 
 
 def _letter(blocks: list[dict[str, Any]]) -> None:
@@ -276,6 +285,8 @@ class SheetPDFExporter(_SheetExporter):
     output_mimetype = "application/pdf"
     template_name = "pierimpact-pdf"
     pandoc_options = ("--to=typst",)
+    #: Pages before this one in a binder, and its pages in all; none outside a binder.
+    binder: Any = Tuple(Int(), Int(), default_value=None, allow_none=True)
 
     def _create_environment(self) -> Environment:
         # Typst has its own use of braces and hashes. All text becomes a string literal.
@@ -294,7 +305,8 @@ class SheetPDFExporter(_SheetExporter):
         """Return the notebook as a PDF, and nbconvert's resources."""
         source, resources = super().from_notebook_node(nb, resources, **kw)
         resources["output_extension"] = ".pdf"
-        pdf, missing = compile_typst(source, resources["sheet"]["date"])
+        inputs = {"binder": f"{self.binder[0]}/{self.binder[1]}"} if self.binder else {}
+        pdf, missing = compile_typst(source, resources["sheet"]["date"], inputs)
         resources["warnings"] = []
         if missing:
             shown = ", ".join(
@@ -330,17 +342,19 @@ def _bytes(base64_text: str) -> Any:
     return Markup(", ".join(map(str, base64.b64decode(base64_text))) + ",")
 
 
-def compile_typst(source: str, date: str) -> tuple[bytes, str]:
+def compile_typst(
+    source: str, date: str, inputs: Mapping[str, str] = MappingProxyType({})
+) -> tuple[bytes, str]:
     """Return the PDF of a Typst document, and the characters that no font has, each once.
 
-    The bytes are the same for the same source and date, which is written as 2026-01-31. Where the
+    The bytes are the same for the same source, date, written as 2026-01-31, and inputs. Where the
     text is in a script that the fonts at hand lack, such as Chinese, the fonts of the system are
     searched too. Where the places of the drawings do not settle, one moving the next, all stand
     where they are spoken of. A character that no font has prints as its number, such as [U+6865],
     rather than as an empty box, which the PDF's standards do not allow.
     """
     compiled: Callable[..., tuple[bytes, Sequence[Any]]] = typst.compile_with_warnings
-    inputs: dict[str, str] = {}
+    inputs = dict(inputs)
     options: dict[str, Any] = {
         "timestamp": datetime.datetime.fromisoformat(f"{date}T00:00:00+00:00"),
         "pdf_standards": ["a-2a", "ua-1"],

@@ -2,11 +2,11 @@
 
 import csv
 import io
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import pierimpact
+from pierimpact.checks import no_formula
 from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph, TitleBlock
 from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table, columns, wide
@@ -14,7 +14,6 @@ from pierimpact.report.results import Results
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 
-NONE = "none"  # instead of a peak that is not there
 UNKNOWN = "—"  # instead of what a case does not give
 EXCEEDED = "exceeded"
 
@@ -95,7 +94,7 @@ _OF_THE_CASES = (
     ),
     _Column("pier frequency", Tex(r"f_\mathrm{p}"), "frequency"),
     _Column("engine peak", "Engine peak", "force"),
-    _Column("cargo peak", "Cargo peak", "force", missing=NONE),
+    _Column("cargo peak", "Cargo peak", "force", missing="none"),
     _Column("governs", "Governs"),
 )
 _OF_THE_CSV = (
@@ -184,20 +183,20 @@ def _shown(results: Iterable[Results]) -> list[_Column]:
 
 
 def _warnings_table(ranked: Sequence[Row]) -> Iterator[Block]:
-    """Yield the warnings of the cases as a table, those that all have in common first."""
-    warnings = [_warnings(row) for row in ranked]
-    common = [text for text in warnings[0] if all(text in own for own in warnings)]
-    if len(ranked) == 1:
-        common = []
-    rows: list[list[Inline]] = [["all cases", text] for text in common]
-    for row, own in zip(ranked, warnings, strict=True):
-        rows += [[_link(row.name), text] for text in own if text not in common]
-    if rows:
+    """Yield the warnings as a table, each once with its cases; of the worst case first."""
+    names: dict[str, list[str]] = {}
+    for row in ranked:
+        for text in _warnings(row):
+            names.setdefault(text, []).append(row.name)
+    if names:
         yield Table(
             label="tab-warnings",
-            caption="Warnings, by case in the same order, the weightiest of each first.",
-            columns=columns("Case", wide("Warning")),
-            rows=rows,
+            caption="Warnings, those of the worst case first, and of each case what is least safe.",
+            columns=columns(wide("Warning"), wide("Cases")),
+            rows=[
+                [text, _links(own) if len(own) < max(len(ranked), 2) else "all"]
+                for text, own in names.items()
+            ],
         )
 
 
@@ -214,14 +213,6 @@ def summary_csv(rows: Sequence[Row]) -> str:
         values = _values(row, system)
         writer.writerow([column.field(values.get(column.name), system) for column in _OF_THE_CSV])
     return text.getvalue()
-
-
-def no_formula(text: str) -> str:
-    """Return text with an apostrophe before what a spreadsheet would take for a formula.
-
-    That is at the start, and after a semicolon, where many a spreadsheet starts a field.
-    """
-    return re.sub(r"(^|;)(\s*[=+\-@＝＋－＠])", r"\1'\2", text)
 
 
 def _calculated(rows: Iterable[Row]) -> dict[str, Results]:
@@ -312,6 +303,11 @@ def _table(
 
 def _link(name: str) -> Link:
     return Link(name, f"{name}.html")
+
+
+def _links(names: Sequence[str]) -> Inline:
+    """Return the names of cases with commas between them."""
+    return tuple(piece for name in names for piece in (", ", _link(name)))[1:]
 
 
 def _values(row: Row, system: str) -> dict[str, Any]:

@@ -86,6 +86,8 @@ class CollisionExplorer(Explorer):
             self._scenario = scenario
             for words, when in _MOMENTS.items():
                 self._moments[words].disabled = when(scenario.history) is None
+            name = readouts.first_peak_name(scenario.history)
+            self._moments[readouts.ENGINE_PEAK].description = name
         # The one drawn first of those that are equal: its history is known.
         scenario = self.animation.scenario
         frame, history = self.animation.frame(self.frame.value), scenario.history

@@ -1,36 +1,104 @@
-"""Exercises that check themselves, and the score of a notebook."""
+"""Exercises that check themselves, with a student's own numbers, and the score of a notebook."""
 
 import html
-from dataclasses import dataclass, field
 
 import ipywidgets as ipw
 
-from pierimpact.checks import InputError, one_of
-from pierimpact.plots.style import GREEN, MUTED, ORANGE
-from pierimpact.teaching.checker import Question, Verdict, check
-from pierimpact.teaching.markup import indexed, paragraph, show, still
-from pierimpact.teaching.questions import QUESTIONS
+from pierimpact.checks import InputError
+from pierimpact.plots.style import GREEN, VERMILION
+from pierimpact.teaching.checker import TRIES, Question, Verdict
+from pierimpact.teaching.markup import (
+    FRAME,
+    Shown,
+    choice_list,
+    indexed,
+    muted,
+    paragraph,
+    refusal,
+    still,
+)
+from pierimpact.teaching.questions import questions
+from pierimpact.teaching.work import work_on
 from pierimpact.units import DIMENSIONS
 
-
-@dataclass
-class _Score:
-    """Progress with the questions of a notebook: tries and solved ones, by number."""
-
-    tries: dict[int, int] = field(default_factory=dict)
-    solved: set[int] = field(default_factory=set)
-    boards: list[ipw.HTML] = field(default_factory=list)
+_LIVE_ONLY = muted("To be answered in the live notebook.")
 
 
-_SCORES: dict[str, _Score] = {}
-
-
-def ask(topic: str, number: int) -> "Exercise":
-    """Return the exercise of a topic and number, ready to be answered.
+class Student:
+    """A box for the student's name or number, which decides the numbers of the exercises.
 
     Parameters
     ----------
-    topic : str
+    lesson : str
+        Name of the lesson.
+    """
+
+    def __init__(self, lesson: str) -> None:
+        self.kept = work_on(lesson)
+        self.box = ipw.Text(
+            value=self.kept.work.name,
+            description="Your name or number",
+            continuous_update=False,
+            layout=ipw.Layout(width="400px"),
+            style={"description_width": "initial"},
+        )
+        self.message = ipw.HTML()
+        self.widget = ipw.VBox([self.box, self.message])
+        self._shown = Shown(self.widget)
+        self._follow()
+        self.box.observe(self._given, "value")
+        self.kept.watchers.append(self._follow)
+
+    def _given(self, *_: object) -> None:
+        try:
+            self.kept.rename(self.box.value)
+        except InputError as error:
+            self._follow(f"The name was not taken: {error}.")
+        else:
+            self._follow()
+
+    def _follow(self, refused: str = "") -> None:
+        kept = self.kept
+        self.box.disabled = kept.fixed
+        whose = f"of {kept.work.name}" if kept.work.name else "that everybody has"
+        when = "They are fixed with your first answer."
+        if kept.fixed:
+            when = "To begin anew, move the file away and run the notebook in a new kernel."
+        words = (
+            f"The exercises below have the numbers {whose}. Your work is kept in "
+            f"{kept.path.name}, beside this notebook. {when}"
+        )
+        trouble = refused or kept.trouble
+        self.message.value = (refusal(trouble) if trouble else "") + muted(html.escape(words))
+        name = html.escape(kept.work.name)
+        self._shown.instead(still(paragraph(f"<b>{name}</b>") if name else ""))
+
+    def _ipython_display_(self) -> None:
+        self._shown.display()
+
+
+def begin(lesson: str) -> Student:
+    """Ask for the student's name or number.
+
+    Parameters
+    ----------
+    lesson : str
+        Name of the notebook's subject, such as "collision".
+
+    Raises
+    ------
+    InputError
+        When there is no such lesson.
+    """
+    return Student(lesson)
+
+
+def ask(lesson: str, number: int) -> "Exercise":
+    """Return the exercise of a lesson and number, ready to be answered.
+
+    Parameters
+    ----------
+    lesson : str
         Name of the notebook's subject, such as "collision".
     number : int
         Number of the question, from 1.
@@ -40,10 +108,10 @@ def ask(topic: str, number: int) -> "Exercise":
     InputError
         When there is no such exercise.
     """
-    one_of("topic", topic, tuple(QUESTIONS))
-    if not 1 <= number <= len(QUESTIONS[topic]):
-        raise InputError(f"number must be 1 to {len(QUESTIONS[topic])}, got {number}")
-    return Exercise(topic, number, QUESTIONS[topic][number - 1])
+    last = len(questions(lesson))
+    if not 1 <= number <= last:
+        raise InputError(f"number must be 1 to {last}, got {number}")
+    return Exercise(lesson, number)
 
 
 class Exercise:
@@ -51,79 +119,132 @@ class Exercise:
 
     Parameters
     ----------
-    topic : str
-        Topic whose score it counts for.
+    lesson : str
+        Lesson that it belongs to.
     number : int
         Its number there.
-    question : Question
-        The question.
     """
 
-    def __init__(self, topic: str, number: int, question: Question) -> None:
-        self.topic, self.number, self.question = topic, number, question
-        self.feedback = ipw.HTML()
-        self._checked = ""
+    def __init__(self, lesson: str, number: int) -> None:
+        self.kept, self.number = work_on(lesson), number
+        self.words, self.feedback = ipw.HTML(), ipw.HTML()
+        question = self.question
         if question.choices:
             layout = ipw.Layout(width="auto")
-            self.box = ipw.RadioButtons(options=question.choices, value=None, layout=layout)
+            options = tuple(question.choices)
+            self.box = ipw.RadioButtons(options=options, value=None, layout=layout)
         else:
-            hint, layout = "a number", ipw.Layout(width="230px")
+            hint, layout = "a number", ipw.Layout(width="290px")
             if question.dimension:
                 unit = DIMENSIONS[question.dimension].units.split(",")[0]
                 hint = f"number and unit, e.g. in {unit}"
-            self.box = ipw.Text(placeholder=hint, continuous_update=False, layout=layout)
+            self.box = ipw.Text(
+                description="Answer",
+                placeholder=hint,
+                continuous_update=False,
+                layout=layout,
+                style={"description_width": "initial"},
+            )
+        self._restore()
+        if not question.choices:
             self.box.observe(self.answer, "value")  # on Enter, and on leaving the box
-        button = ipw.Button(description="Check", icon="check", layout=ipw.Layout(width="90px"))
-        button.on_click(self.answer)
+        self.button = ipw.Button(description="Check", icon="check", layout=ipw.Layout(width="90px"))
+        self.button.on_click(self.answer)
         self.widget = ipw.VBox(
-            [ipw.HTML(self._asked()), ipw.HBox([self.box, button]), self.feedback],
-            layout=ipw.Layout(border_left=f"3px solid {MUTED}", padding="2px 0 4px 12px"),
+            [self.words, ipw.HBox([self.box, self.button]), self.feedback],
+            layout=ipw.Layout(border_left=FRAME, padding="2px 0 4px 12px"),
         )
+        self._shown = Shown(self.widget)
+        self._follow()
+        self.kept.watchers.append(self._follow)
+
+    @property
+    def question(self) -> Question:
+        """The question, with the student's own numbers."""
+        return self.kept.work.questions[self.number - 1]
+
+    def _restore(self) -> None:
+        """Put the last answer that was kept in the box."""
+        given = self.kept.work.answers.get(self.number)
+        if given and (not self.question.choices or given[-1] in self.question.choices):
+            self.box.value = given[-1]
 
     def answer(self, *_: object) -> Verdict:
         """Check the answer in the box, show the reply and keep the score."""
-        given = self.box.value or ""
-        verdict = check(self.question, given)
-        score = _SCORES.setdefault(self.topic, _Score())
-        again, self._checked = given == self._checked, given
-        if verdict.right is not None and self.number not in score.solved and not again:
-            score.tries[self.number] = score.tries.get(self.number, 0) + 1
-            if verdict.right:
-                score.solved.add(self.number)
-        colour = GREEN if verdict.right else ORANGE
-        sign = {True: "✓", False: "✗", None: "…"}[verdict.right]
-        words = f'<b style="color:{colour}">{sign}</b> {html.escape(verdict.words)}'
-        self.feedback.value = paragraph(words, role="status")
-        for board in score.boards:
-            board.value = _summary(self.topic)
+        verdict = self.kept.answer(self.number, self.box.value or "")
+        self._reply(verdict)
         return verdict
+
+    def _follow(self) -> None:
+        """Show the question with the student's numbers, and the reply to what was kept."""
+        if self.words.value != self._asked():  # a reply to other numbers means nothing
+            self.words.value, self.feedback.value = self._asked(), ""
+        progress = self.kept.work.progress(self.number)
+        if progress.tries:
+            self._reply(Verdict(progress.right, progress.reply))
+        else:
+            self._show_still()
+
+    def _reply(self, verdict: Verdict) -> None:
+        progress = self.kept.work.progress(self.number)
+        colour = GREEN if verdict.right else VERMILION
+        sign = {True: "✓", False: "✗", None: "…"}[verdict.right]
+        words = f'<b style="color:{colour}">{sign}</b> {indexed(verdict.words)}'
+        if progress.closed:
+            words += f"<br><b>Worked solution.</b> {indexed(self.question.solution)}"
+        elif verdict.right is False and not self.question.choices:
+            left = TRIES - progress.tries
+            words += muted(f"{left} more {'try' if left == 1 else 'tries'} before the solution.")
+        self.feedback.value = paragraph(words, "max-width:780px", role="status")
+        self._show_still()
+
+    def _show_still(self) -> None:
+        given = self.kept.work.answers.get(self.number)
+        told = f"{paragraph(html.escape(given[-1]))}{self.feedback.value}" if given else _LIVE_ONLY
+        self._shown.instead(still(f"{self._asked()}{choice_list(self.question.choices)}{told}"))
 
     def _asked(self) -> str:
         words = f"<b>Exercise {self.number}.</b> {indexed(self.question.words)}"
         return paragraph(words, "max-width:780px")
 
     def _ipython_display_(self) -> None:
-        choices = "".join(f"<li>{html.escape(words)}</li>" for words in self.question.choices)
-        note = f'<div style="color:{MUTED}">To be answered in the live notebook.</div>'
-        show(self.widget, still(f"{self._asked()}{choices and f'<ul>{choices}</ul>'}{note}"))
+        self._shown.display()
 
 
-def score(topic: str) -> None:
-    """Show how many exercises of a topic are solved; it follows what is answered above."""
-    board = ipw.HTML(_summary(topic))
-    _SCORES.setdefault(topic, _Score()).boards.append(board)
-    show(board, still(""))
+class Score:
+    """How many exercises of a lesson are solved; it follows what is answered above.
+
+    Parameters
+    ----------
+    lesson : str
+        Name of the lesson.
+    """
+
+    def __init__(self, lesson: str) -> None:
+        self.kept, self.board = work_on(lesson), ipw.HTML()
+        self._shown = Shown(self.board)
+        self._follow()
+        self.kept.watchers.append(self._follow)
+
+    def _follow(self) -> None:
+        scores, rows = self.kept.work.scores, ""
+        for number, progress in enumerate(scores, 1):
+            count = "1 try" if progress.tries == 1 else f"{progress.tries} tries"
+            mark, words = "○", f"not solved yet, {count}" if progress.tries else "not tried yet"
+            if progress.right:
+                mark, words = "●", f"solved after {count}"
+            elif progress.closed:
+                mark, words = "×", f"worked solution shown after {count}"
+            sign = f'<span style="color:{GREEN}">{mark}</span>'
+            rows += f"<div>{sign} Exercise {number}: {words}</div>"
+        solved = f"<b>{self.kept.work.solved} of {len(scores)} solved</b>"
+        self.board.value = paragraph(f"{solved}{rows}")
+        self._shown.instead(still(self.board.value if any(score.tries for score in scores) else ""))
+
+    def _ipython_display_(self) -> None:
+        self._shown.display()
 
 
-def _summary(topic: str) -> str:
-    one_of("topic", topic, tuple(QUESTIONS))
-    state = _SCORES.get(topic, _Score())
-    rows = ""
-    for number in range(1, len(QUESTIONS[topic]) + 1):
-        tries = state.tries.get(number, 0)
-        count = "1 try" if tries == 1 else f"{tries} tries"
-        mark, words = "○", f"not solved yet, {count}" if tries else "not tried yet"
-        if number in state.solved:
-            mark, words = "●", f"solved after {count}"
-        rows += f'<div><span style="color:{GREEN}">{mark}</span> Exercise {number}: {words}</div>'
-    return paragraph(f"<b>{len(state.solved)} of {len(QUESTIONS[topic])} solved</b>{rows}")
+def score(lesson: str) -> Score:
+    """Return how many exercises of a lesson are solved; it follows what is answered above."""
+    return Score(lesson)

@@ -9,10 +9,9 @@ from typing import Any
 import ipywidgets as ipw
 
 from pierimpact.checks import InputError
-from pierimpact.plots.style import MUTED
 from pierimpact.teaching.control import Control
 from pierimpact.teaching.live import LiveFigure, LiveWords
-from pierimpact.teaching.markup import refusal, show, still
+from pierimpact.teaching.markup import GROUND, INK, MUTED, refusal, show, still
 from pierimpact.teaching.readouts import Readout
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.teaching.scenario_files import case_text, truck_text
@@ -154,8 +153,8 @@ class Explorer:
         self._copied.value = "".join(
             f'<div style="font-size:12px;color:{MUTED}">One click selects; copy into '
             f"<code>{name}</code></div>"
-            f'<pre style="user-select:all;background:#f6f8fa;padding:8px;font-size:11px;'
-            f'line-height:1.35;overflow:auto;max-height:220px">{html.escape(content)}</pre>'
+            f'<pre style="user-select:all;color:{INK};background:{GROUND};padding:8px;'
+            f'font-size:11px;line-height:1.35;overflow:auto;max-height:220px">{html.escape(content)}</pre>'
             for name, content in parts
         )
 

@@ -80,7 +80,7 @@ def amplifications(
             ratio=RATIOS,
             exact=exact[row],
             closed=amplification(RATIOS, mu[row], e[row], damping_ratio),
-            impulse=(1.0 + e[row]) * RATIOS,
+            impulse=(1.0 + e[row]) * RATIOS / (1.0 + mu[row]),
             static=1.0 / np.sqrt(1.0 + mu[row] / RATIOS**2),
         )
         for row, body in enumerate(BODIES)

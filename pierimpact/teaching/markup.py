@@ -2,20 +2,36 @@
 
 import html
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from typing import Any
 from unicodedata import lookup
 
 import ipywidgets as ipw
 from IPython.display import display
 
-from pierimpact.plots.style import INK, MUTED, ORANGE
+from pierimpact.plots import style
+
+#: Colours of text and of what stands back: those of JupyterLab's theme, where there is one.
+INK = f"var(--jp-ui-font-color1, {style.INK})"
+MUTED = f"var(--jp-ui-font-color2, {style.MUTED})"
+#: Ground of what stands out.
+GROUND = "var(--jp-layout-color2, #f6f8fa)"
+_WARNED = f"border-left:4px solid {style.ORANGE};background:{GROUND}"
+#: Line beside what asks something.
+FRAME = f"3px solid {style.GREY}"
 
 # Live widgets and their still stand side by side in a notebook's output; one of them shows. In
-# JupyterLab and Voilà that is the widgets. In a page exported from the notebook, where they would
-# be dead, it is the still.
+# Voilà that is the widgets, in JupyterLab too as long as they have their kernel. A notebook opened
+# again has none, but a word of JupyterLab on what is missing, which bears no type as other outputs
+# do: the still shows instead. In a page made from the notebook, where widgets are dead, it does,
+# too.
 _LIVE, _STILL = "pierimpact-live", "pierimpact-still"
+_LIVES = f":has(.{_LIVE}:not(.jupyter-widgets-disconnected))"
 _STYLE = (
-    f"<style>.jp-NotebookPanel .{_STILL}, body[data-voila] .{_STILL} {{display:none}} "
+    f"<style>.jp-NotebookPanel .jp-OutputArea{_LIVES} .{_STILL}, "
+    f"body[data-voila] .{_STILL}, "
+    f".jp-NotebookPanel .jp-OutputArea:has(.{_STILL}):not({_LIVES}) "
+    ".jp-OutputArea-output:not([data-mime-type]) {display:none} "
     f"body.jp-Notebook:not([data-voila]) .{_LIVE} {{display:none}}</style>"
 )
 
@@ -37,16 +53,31 @@ def _italic(match: re.Match[str]) -> str:
     return f"<i>{letter}</i>" + (f"<sub>{index}</sub>" if index else "")
 
 
-def paragraph(content: str, style: str = "padding:3px 0", role: str = "") -> str:
+def paragraph(content: str, css: str = "padding:3px 0", role: str = "") -> str:
     """Return HTML as a paragraph in the colour of text; `role` is for screen readers."""
     kind = f' role="{role}"' if role else ""
-    return f'<div{kind} style="color:{INK};line-height:1.45;{style}">{content}</div>'
+    return f'<div{kind} style="color:{INK};line-height:1.45;{css}">{content}</div>'
 
 
 def refusal(words: str) -> str:
     """Return the sentence that stands where a figure would be."""
-    style = f"border-left:4px solid {ORANGE};background:#fff8ec;padding:14px 16px"
-    return paragraph(html.escape(words), style, role="alert")
+    return paragraph(html.escape(words), f"{_WARNED};padding:14px 16px", role="alert")
+
+
+def warning(words: str) -> str:
+    """Return a sentence of warning."""
+    return paragraph(html.escape(words), f"{_WARNED};padding:2px 10px")
+
+
+def muted(content: str) -> str:
+    """Return HTML as a remark that stands back."""
+    return f'<div style="color:{MUTED}">{content}</div>'
+
+
+def choice_list(choices: Iterable[str]) -> str:
+    """Return choices as a list, nothing where there are none."""
+    items = "".join(f"<li>{html.escape(words)}</li>" for words in choices)
+    return items and f'<ul style="color:{INK}">{items}</ul>'
 
 
 def named_values(items: Sequence[tuple[str, object, str]]) -> str:
@@ -82,19 +113,19 @@ def table(
         Colour of the heading of each row.
     """
 
-    def cell(kind: str, column: int, words: str, style: str = "") -> str:
+    def cell(kind: str, column: int, words: str, css: str = "") -> str:
         align = "text-align:right;white-space:nowrap" if column in right else "text-align:left"
         return (
-            f'<{kind} style="padding:3px 12px 3px 0;vertical-align:top;{align}{style}">'
+            f'<{kind} style="padding:3px 12px 3px 0;vertical-align:top;{align}{css}">'
             f"{html.escape(words)}</{kind}>"
         )
 
     head = "".join(cell("th", column, words) for column, words in enumerate(heads))
     styles = [f";color:{colour}" for colour in colours] or [";font-weight:400"] * len(rows)
     body = ""
-    for (first, *others), style in zip(rows, styles, strict=True):
+    for (first, *others), css in zip(rows, styles, strict=True):
         cells = "".join(cell("td", column, words) for column, words in enumerate(others, 1))
-        body += f"<tr>{cell('th', 0, first, style)}{cells}</tr>"
+        body += f"<tr>{cell('th', 0, first, css)}{cells}</tr>"
     return (
         f'<table style="border-collapse:collapse"><thead><tr style="color:{MUTED}">{head}</tr>'
         f"</thead><tbody>{body}</tbody></table>"
@@ -108,6 +139,39 @@ def still(content: str) -> str:
 
 def show(widget: ipw.Widget, shown_instead: str, text: str = "") -> None:
     """Display a widget, with what stands for it where it is dead as a `still` and in plain text."""
-    widget.add_class(_LIVE)
-    display(widget)  # type: ignore[no-untyped-call]
-    display({"text/html": shown_instead, "text/plain": text}, raw=True)  # type: ignore[no-untyped-call]
+    shown = Shown(widget, text)
+    shown.instead(shown_instead)
+    shown.display()
+
+
+class Shown:
+    """A widget, and what stands for it where it is dead.
+
+    Parameters
+    ----------
+    widget : Widget
+        The widget.
+    text : str, optional
+        Title that stands for it in plain text.
+    """
+
+    def __init__(self, widget: ipw.Widget, text: str = "") -> None:
+        self._widget, self._text = widget, text
+        self._instead = ""
+        self._handle: Any = None
+        widget.add_class(_LIVE)
+
+    def instead(self, content: str) -> None:
+        """Set what stands for the widget, a `still`; the notebook saves what was set last."""
+        changed, self._instead = content != self._instead, content
+        if self._handle is not None and changed:
+            self._handle.update(self._bundle, raw=True)
+
+    def display(self) -> None:
+        """Display both."""
+        display(self._widget)  # type: ignore[no-untyped-call]
+        self._handle = display(self._bundle, raw=True, display_id=True)  # type: ignore[no-untyped-call]
+
+    @property
+    def _bundle(self) -> dict[str, str]:
+        return {"text/html": self._instead, "text/plain": self._text}

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.collision.history import Peak
+from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.plots.schematic import Frame
 from pierimpact.plots.style import BODIES
 from pierimpact.symbols import SYMBOLS
@@ -28,9 +28,7 @@ class Readout(NamedTuple):
     @property
     def html(self) -> str:
         """The readout as HTML."""
-        warned = "".join(
-            f'<div style="color:#8a5300">{html.escape(words)}.</div>' for words in self.warnings
-        )
+        warned = "".join(markup.warning(f"{words}.") for words in self.warnings)
         return self.values + paragraph(html.escape(self.words)) + warned
 
 
@@ -49,6 +47,24 @@ def peak_at(peak: Peak) -> str:
     return f"{force(peak.reaction)} at {printed(peak.time, 'time', 'SI')}"
 
 
+#: Name of the largest reaction before cargo contact, where that is the engine's doing.
+ENGINE_PEAK = "Engine peak"
+
+
+def first_peak_name(history: CollisionHistory) -> str:
+    """Return what the largest reaction before cargo contact truly is.
+
+    It is the engine's peak where the engine has struck before, and where it is a peak: not where
+    metal alone is crushed, nor where the reaction still rises as the cargo arrives.
+    """
+    contact, cargo = history.engine_contact_time, history.cargo_contact_time
+    time = history.engine_peak.time
+    rising = cargo is not None and math.isclose(time, cargo, rel_tol=1e-6)
+    if contact is not None and contact <= time and not rising:
+        return ENGINE_PEAK
+    return "Largest reaction" if cargo is None else "Largest reaction before cargo contact"
+
+
 def outcome(scenario: Scenario) -> str:
     """Return the outcome of a collision in sentences."""
     history = scenario.history
@@ -58,7 +74,8 @@ def outcome(scenario: Scenario) -> str:
             "Neither engine nor cargo reaches the pier: the sheet metal in front of them stops "
             f"the truck. The largest reaction is {peak_at(engine)}."
         )
-    words = f"Engine peak {peak_at(engine)}"
+    name = first_peak_name(history)
+    words = f"{name} {peak_at(engine)}"
     if history.engine_contact_time is None:
         words = (
             "The engine stops short of the pier; the largest reaction before the cargo arrives is "
@@ -66,7 +83,10 @@ def outcome(scenario: Scenario) -> str:
         )
     if cargo is None:
         return f"{words}. The cargo stops short of the pier: there is no cargo peak."
-    return f"{words}; cargo peak {peak_at(cargo)}. The {history.governs} governs."
+    governs = f"The {history.governs} governs."
+    if history.governs == "engine" and name != ENGINE_PEAK:
+        governs = "The first is the larger."
+    return f"{words}; cargo peak {peak_at(cargo)}. {governs}"
 
 
 def instant(frame: Frame, phase: str) -> str:
@@ -87,7 +107,11 @@ def collision(scenario: Scenario) -> Readout:
         _named("kp", pier.stiffness),
         _named("mp", pier.mass),
         ("Truck’s energy", printed(scenario.collision.energy, "energy", "SI"), "½ (m₁ + m₂) V²"),
-        ("Engine peak", reaction(history.engine_peak), "largest reaction before cargo contact"),
+        (
+            first_peak_name(history),
+            reaction(history.engine_peak),
+            "largest reaction before cargo contact",
+        ),
         ("Cargo peak", reaction(history.cargo_peak), "largest reaction after cargo contact"),
     )
 
@@ -111,11 +135,11 @@ def shape(scenario: Scenario) -> Readout:
 
 def amplification(scenario: Scenario, values: dict[str, float]) -> Readout:
     """Return the steps from contact speed to reaction beside the full model’s."""
-    heads = ("", "contact speed", "μ", "e", "β", "S", "two degrees of freedom", "full model")
+    heads = ("", "contact speed", "β", "μ", "e", "S", "two degrees of freedom", "full model")
     rows, words = [], []
     for i, (body, peak) in enumerate(scenario.history.peaks.items(), 1):
         speed, reduced = printed(values[f"v{i}"], "speed", "SI"), values[f"R{i}"]
-        terms = [f"{values[f'{name}{i}']:.3f}" for name in ("mu", "e", "beta", "S")]
+        terms = [f"{values[f'{name}{i}']:.3f}" for name in ("beta", "mu", "e", "S")]
         rows.append((body, str(speed), *terms, force(reduced), reaction(peak)))
         if math.isnan(reduced) or peak is None:
             words.append(f"There is no {body} peak.")

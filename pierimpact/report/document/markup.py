@@ -52,6 +52,14 @@ class Link(Part):
 
 
 @dataclass(frozen=True)
+class PageLink(Part):
+    """A link to a page of the binder that this document is bound into; elsewhere, its text."""
+
+    text: str
+    page: int
+
+
+@dataclass(frozen=True)
 class Ref(Part):
     """A reference to an equation, table or figure, which prints as its name and number."""
 
@@ -59,7 +67,7 @@ class Ref(Part):
     label: str
 
 
-Piece = str | Tex | Code | Link | Ref
+Piece = str | Tex | Code | Link | PageLink | Ref
 Inline = Piece | tuple[Piece, ...]  #: one piece of text, or a run of them
 
 

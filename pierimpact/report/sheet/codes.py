@@ -2,7 +2,7 @@
 
 from pierimpact.design.codes import CodeForce, Sourced
 from pierimpact.pier.member_forces import MemberForces
-from pierimpact.plots.stub import draw_code_bars
+from pierimpact.plots.code_bars import draw_code_bars
 from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
@@ -29,11 +29,9 @@ class Codes(Section):
         band = result.band.quantiles() if result.band.spread else None
         return Figure(
             label="fig-codes",
-            caption="Forces of codes along the travel beside the largest moving averages of the "
-            "contact force and the design reaction"
-            + (" with its band (5 to 95 %)" if band is not None else "")
-            + ". The force of AASHTO LRFD was taken from a 25 ms average; the others are "
-            "equivalent static forces. Hatched: not read in the code itself.",
+            caption="Forces of codes along the travel, the largest averages of the contact force, "
+            "and the design reaction. That of AASHTO LRFD was taken from a 25 ms average. Hatched: "
+            "not read in the code itself.",
             alt=f"Largest averages of the contact force: {words or 'none'}. The reaction is "
             f"{self.shown(result.design_force, 'force')}.",
             svg=draw_code_bars(

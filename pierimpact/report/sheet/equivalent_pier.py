@@ -159,6 +159,7 @@ class EquivalentPierSteps(PierSection):
     def under_unit_force(self) -> Block:
         """Return the shape function as a figure, beside what the unit force does."""
         tables = [self.unit_forces(), self.stiffness(), self.shape_table()]
+        # The share is a width by eye, this project's choice.
         return Beside(left=[self.shape_figure()], right=tables, share=0.36)
 
     def shape_figure(self) -> Block:
@@ -353,8 +354,8 @@ class EquivalentPierSteps(PierSection):
                     name=SYMBOLS["kp"].heading,
                     symbol=SYMBOLS["kp"].latex,
                     lines=[
-                        rf"\frac{{1}}{{{SYMBOLS['xn'].latex}}}",
-                        rf"\frac{{1}}{{{flexibility}}} = {stiffness}",
+                        rf"\frac{{1}}{{{SYMBOLS['xn'].latex}}} = \frac{{1}}{{{flexibility}}}"
+                        f" = {stiffness}"
                     ],
                     source="Eq. 3 of the source paper",
                 ),

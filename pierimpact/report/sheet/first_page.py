@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from pierimpact.design.codes import aashto_lrfd
 from pierimpact.plots.situation import draw_situation
+from pierimpact.report.calculation import AVERAGE
 from pierimpact.report.document.blocks import (
     Block,
     Contents,
@@ -20,9 +21,6 @@ from pierimpact.report.warnings import warnings_of
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, rounded
 
-#: Window of the average that the force of AASHTO LRFD was taken from, as read in NCHRP Report 892
-#: [s].
-AVERAGE = 0.025
 #: The member forces that are checked, and what kind of quantity they are.
 DEMANDS = {"shear": "force", "moment": "moment"}
 #: The methods by which they are found, in words.
@@ -149,7 +147,7 @@ class FirstPage(Section):
             yield (
                 f"Largest {self.shown(AVERAGE, 'time', given=True)} average",
                 self.shown(average.force, "force"),
-                f"of the contact force: {rounded(average.force / code.along.value, 3)} times the "
+                f"of the contact force: {rounded(result.code_ratio or 0.0, 3)} times the "
                 f"{self.shown(code.along.value, 'force', given=True)} of {code.code}, which is "
                 "such an average",
             )

@@ -6,7 +6,7 @@ from pierimpact.collision.history import Peak
 from pierimpact.plots.history import draw_history
 from pierimpact.report.document.blocks import Beside, Block
 from pierimpact.report.document.markup import Inline, Tex, in_tex
-from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, columns, decimal
+from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
@@ -15,49 +15,47 @@ from pierimpact.units import rounded
 class FullModel(Section):
     """The collision by the full model."""
 
-    def equations(self) -> Steps:
+    def equations(self) -> Block:
         """Return the equations of motion and the crush law that the full model solves."""
         on_pier = self.case.truck.friction_on == "pier"
         relative = r"\dot x_2 - \dot x_\mathrm{p}" if on_pier else r"\dot x_2"
-        where = "while its spring touches the pier" if on_pier else "from the road"
+        where = "while it touches the pier" if on_pier else "from the road"
         on_the_pier = r" + F_\mathrm{f}" if on_pier else ""
-        ours, paper = "derived here", "Fig. 2 of the source paper"
+        ours, paper = "derived here", "source paper, Fig. 2"
         rows = (
-            ("crush", "Crush of the springs of engine and body", r"\delta_i",
+            ("Crush of either spring", r"\delta_i",
              r"x_i - x_\mathrm{p} \quad (i = 1, 2)", ""),
-            ("envelope", "Envelope, up to the plateau’s end and beyond", r"E_i(\delta)",
+            ("Envelope: plateau, then rise", r"E_i(\delta)",
              r"\min(k_{\mathrm{u}i} \, \delta, P_i) \ \text{ where } \delta \le d_i, "
              r"\quad P_i + k_i \, (\delta - d_i) \ \text{ beyond}", ours),
-            ("force", "Force of a spring, with its largest crush so far", "F_i",
+            ("Force, from its largest crush", "F_i",
              r"\max(E_i(\delta_{i,\max}) - k_{\mathrm{u}i} \, (\delta_{i,\max} - \delta_i), 0)",
              ours),
-            ("friction", f"Friction on the body, {where}", r"F_\mathrm{f}",
+            (f"Friction on the body, {where}", r"F_\mathrm{f}",
              rf"c_\mathrm{{s}} \operatorname{{sgn}}({relative}), "
              r"\quad \text{at rest, whatever holds the body, up to } c_\mathrm{s}", ours),
-            ("engine", "Motion of the engine", r"m_1 \, \ddot x_1", "-F_1", paper),
-            ("body", "Motion of body and cargo", r"m_2 \, \ddot x_2",
+            ("Motion of the engine", r"m_1 \, \ddot x_1", "-F_1", paper),
+            ("Motion of body and cargo", r"m_2 \, \ddot x_2",
              r"-F_2 - F_\mathrm{f}", paper),
-            ("pier", "Motion of the pier",
+            ("Motion of the pier",
              r"m_\mathrm{p} \, \ddot x_\mathrm{p} + c_\mathrm{p} \, \dot x_\mathrm{p}"
              r" + k_\mathrm{p} \, x_\mathrm{p}", f"F_1 + F_2{on_the_pier}", paper),
         )  # fmt: skip
-        return Steps(
-            [
-                Equation(label=f"eq-model-{label}", name=name, symbol=symbol, lines=[formula],
-                         source=source)
-                for label, name, symbol, formula, source in rows
-            ]
-        )  # fmt: skip
+        return Table(
+            label="tab-model",
+            caption="The full model: crush law and equations of motion.",
+            columns=columns(wide("Quantity"), "Equation", "From"),
+            rows=[
+                [name, Tex(f"{symbol} = {formula}"), source]
+                for name, symbol, formula, source in rows
+            ],
+            centred=True,
+        )
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the full model, by name."""
         return {
-            "delta_i": "eq-model-crush",
-            "E_i": "eq-model-envelope",
-            "F_i": "eq-model-force",
-            "F_f": "eq-model-friction",
-            "x_i": "eq-model-crush",
-            "x_p": "eq-model-pier",
+            **dict.fromkeys(("delta_i", "E_i", "F_i", "F_f", "x_i", "x_p"), "tab-model"),
             "R_t": "fig-history",
             "R": "tab-peaks",
         }
@@ -106,7 +104,8 @@ class FullModel(Section):
         lowest = self.calculation.governing.lowest
         lowest_values = self.number(lowest.reaction, "force"), self.number(lowest.time, "time")
         share = rounded(100.0 * lowest.reaction / self.calculation.design_force, 2)
-        rows.append(["Lowest", "", *lowest_values, f"reversal, {share} %"])
+        words = f"reversal, {share} %" if lowest.reaction < 0.0 else "no reversal"
+        rows.append(["Lowest", "", *lowest_values, words])
         time, force = self.unit("time"), self.unit("force")
         return Table(
             label="tab-peaks",
@@ -192,6 +191,7 @@ class FullModel(Section):
 
     def balances(self) -> Block:
         """Return energy and momentum, the check by hand of the full model."""
+        # The share is a width by eye, this project's choice.
         return Beside(left=[self.energy()], right=[self.momentum()], share=0.56)
 
     def averages(self) -> Block:

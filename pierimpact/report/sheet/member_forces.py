@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pierimpact.plots.stub import draw_envelopes
+from pierimpact.plots.envelopes import draw_envelopes
 from pierimpact.report.calculation import Demand
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Inline, Tex
@@ -156,6 +156,7 @@ class MemberForces(Section):
                 ],
                 (inputs.shear_resistance, inputs.moment_resistance),
                 self.system,
+                self.case.column,
             ),
         )
 
@@ -187,11 +188,10 @@ class MemberForces(Section):
         ]  # fmt: skip
         return Table(
             label="tab-yielding",
-            caption="If the column yields in bending: the full model with a pier that is elastic "
-            "up to the reaction at which its moment resistance is first reached, and perfectly "
-            "plastic from there. A redundant column carries more until its hinges make it a "
-            "mechanism. The case does not say how much ductility the section has; shear is not "
-            "ductile, and its utilisation stays as it is.",
+            caption="If the column yields in bending: the full model, elastic up to the reaction at "
+            "which the moment resistance is first reached and perfectly plastic from there. A "
+            "redundant column carries more until it is a mechanism. How much ductility the section "
+            "has is not checked; shear is not ductile.",
             columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
             rows=[[name, Tex(symbol) if symbol else "", *shown] for name, symbol, shown in rows],
             strong=[3],

@@ -3,7 +3,7 @@
 from pierimpact.design.sensitivity import MASS_CHANGE
 from pierimpact.plots.band import draw_band
 from pierimpact.plots.figures import draw_sensitivity
-from pierimpact.plots.stub import draw_tornado
+from pierimpact.plots.tornado import draw_tornado
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal

@@ -4,10 +4,10 @@ from itertools import chain
 
 from pierimpact.design.procedure import short
 from pierimpact.design.reaction import DesignReaction
-from pierimpact.plots.stub import draw_spectrum
+from pierimpact.plots.spectra import draw_spectra
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline, Tex, inline
-from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
+from pierimpact.report.document.numbered import Column, Figure, Table, columns, decimal, wide
 from pierimpact.report.document.step_writer import StepWriter, in_symbols
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
@@ -44,7 +44,7 @@ class SpectrumMethod(Section):
             "marked.",
             alt=f"Spectra of engine and cargo reaction. At this pier’s {pier} the full model gives "
             f"{words}.",
-            svg=draw_spectrum(result.sensitivity.frequency, frequency, self.system),
+            svg=draw_spectra(result.sensitivity.frequency, frequency, self.system),
         )
 
     def starting_values(self) -> Block:
@@ -57,12 +57,13 @@ class SpectrumMethod(Section):
         ]
         cells += [["", "", ""]] * (-len(cells) % _ABREAST)
         lines = len(cells) // _ABREAST
+        heads: list[Inline | Column] = ["Symbol", decimal("Value"), "Unit"]
         return Table(
             label="tab-given",
             caption="Starting values, in consistent units: forces are masses times accelerations, "
             f"and 1 {unit_of(mass, self.system)} is {printed(size, 'share', 'SI', given=True)} "
             f"{self.unit('mass')}.",
-            columns=columns(*["Symbol", decimal("Value"), "Unit"] * _ABREAST),
+            columns=columns(*heads * _ABREAST),
             rows=[list(chain(*cells[line::lines])) for line in range(lines)],
         )
 

@@ -1,105 +1,194 @@
-"""Exercises of the lesson on one collision."""
+"""The lesson on one collision."""
 
 import math
+from dataclasses import replace
+from functools import cache
 
-from pierimpact.teaching.checker import Question, Trap
-from pierimpact.teaching.questions.common import (
-    BODY,
-    CARGO_NOT_ENGINE,
-    ENGINE,
-    ENGINE_NOT_CARGO,
-    M1,
-    M2,
-    PEAKS,
-    SLOW,
-    growth,
-)
+from pierimpact.teaching.checker import Mistake, Question
+from pierimpact.teaching.lesson import Lesson, Misconception, Prediction
+from pierimpact.teaching.numbers import Numbers
+from pierimpact.teaching.questions.common import IN_KMH, KMH, MS_AS_KMH, NO_HALF, history
 from pierimpact.teaching.scenario import REFERENCE, Scenario
 
-# What slows engine and body before they strike: the work of a force over a length [J].
-_ENGINE_WORK = ENGINE.plateau_force * ENGINE.plateau_length
-_BODY_WORK = (BODY.plateau_force + REFERENCE.friction_force) * BODY.plateau_length
+_CHOICES = {
+    "one spike, when the bumper touches the column": "Bumper and sheet metal crush at a small "
+    "force. The large forces come later, when something hard arrives.",
+    "two spikes: first the engine’s, later the cargo’s": "The engine is close behind the bumper; "
+    "the cargo arrives later, with more mass behind a softer spring.",
+    "a constant force until the truck stands still": "The plateau forces are nearly constant, but "
+    "they do not stop the truck: engine and cargo arrive at the column with speed to spare.",
+}
 
 
-def _energy(mass: float) -> float:
-    return 0.5 * mass * SLOW**2
+def _spikes() -> str:
+    found = history(Scenario())
+    one, two, steady = _CHOICES
+    if found.engine_contact_time is None:
+        return steady
+    return one if found.cargo_contact_time is None else two
 
 
-def _stopping_speed(work: float, mass: float) -> float:
-    """Return the speed from which the work [J] of a force stops a mass."""
-    return math.sqrt(2.0 * work / mass)
+def _stopping_length(numbers: Numbers) -> Question:
+    tonnes, kmh = numbers.between(9, 19), numbers.between(50, 75, 5)
+    kilonewtons = numbers.between(400, 640, 20)
 
+    def length(
+        mass: float = 1e3 * tonnes,
+        speed: float = kmh * KMH,
+        force: float = 1e3 * kilonewtons,
+        half: float = 0.5,
+    ) -> float:
+        return half * mass * speed**2 / force
 
-def _speed_left(work: float, mass: float) -> float:
-    """Return the speed left of 60 km/h after the work [J] of a force has slowed a mass."""
-    return math.sqrt(SLOW**2 - 2.0 * work / mass)
-
-
-def _grows_with_mass() -> str:
-    engine, cargo = growth(Scenario(), Scenario(truck_mass=20e3))
-    return PEAKS[0] if engine > cargo else PEAKS[1]
-
-
-QUESTIONS = (
-    Question(
-        words=f"The explorer’s truck has a mass of {REFERENCE.mass / 1e3:g} t. What is its kinetic "
-        "energy at 60 km/h?",
-        dimension="energy",
-        answer=lambda: _energy(REFERENCE.mass),
-        traps=(
-            Trap(
-                lambda: _energy(M1),
-                "That is the energy of the engine alone; the question is about the whole truck.",
-            ),
-            Trap(
-                lambda: _energy(M2),
-                "That leaves out the engine; the question is about the whole truck.",
+    return Question(
+        words=f"A truck of {tonnes} t at {kmh} km/h is stopped by crushing metal alone, at a "
+        f"constant force of {kilonewtons} kN. Over what length?",
+        dimension="length",
+        answer=length(),
+        mistakes=(
+            Mistake(length(half=1.0), NO_HALF),
+            Mistake(length(speed=kmh), IN_KMH),
+            Mistake(length(speed=math.sqrt(kmh * KMH)), "The speed is squared in the energy."),
+            Mistake(
+                length() * 9.81,
+                "Forces here are in newtons and masses in kilograms: no g is needed.",
             ),
         ),
-        reason="Almost all of it is dissipated in crushing metal.",
-    ),
-    Question(
-        words=f"On its way to the pier the engine (m₁ = {M1:g} kg) is slowed by "
-        f"the plateau force P₁ = {ENGINE.plateau_force / 1e3:g} kN over the length d₁ = "
-        f"{ENGINE.plateau_length:g} m. The truck’s speed is 60 km/h. How fast is the engine when "
-        "it strikes a rigid pier?",
+        start="The work of the force, force times length, takes up all of the kinetic energy.",
+        solution=f"P d = ½ m V², so d = m V² / (2 P) = {1000 * tonnes} kg × "
+        f"({kmh * KMH:.4g} m/s)² / (2 × {1000 * kilonewtons} N) = {length():.4g} m",
+        reason="Metres, where the explorer’s truck has half a metre in front of its engine and "
+        "two in front of its cargo: hence the spikes.",
+    )
+
+
+def _contact_speed(numbers: Numbers) -> Question:
+    mass, kmh = numbers.between(620, 860, 20), numbers.between(64, 76, 2)
+    kilonewtons, decimetres = numbers.between(100, 140, 10), numbers.between(4, 5)
+    work, speed, truck = 100.0 * kilonewtons * decimetres, kmh * KMH, numbers.between(7, 12)
+
+    def left(mass: float = mass, speed: float = speed, half: float = 0.5) -> float:
+        return math.sqrt(speed**2 - work / (half * mass))
+
+    return Question(
+        words=f"On its way to a rigid pier the engine ({mass} kg) of a truck of {truck} t is "
+        f"slowed by a plateau force of {kilonewtons} kN over {decimetres / 10:g} m. The truck’s "
+        f"speed is {kmh} km/h. How fast is the engine when it strikes?",
         dimension="speed",
-        answer=lambda: _speed_left(_ENGINE_WORK, M1),
-        traps=(
-            Trap(lambda: _speed_left(_BODY_WORK, M2), ENGINE_NOT_CARGO),
-            Trap(
-                lambda: _speed_left(_ENGINE_WORK, REFERENCE.mass),
-                "That slows the whole truck; P₁ acts on the engine alone.",
+        answer=left(),
+        mistakes=(
+            Mistake(
+                left(mass=1e3 * truck),
+                "That slows the whole truck; the force acts on the engine alone.",
             ),
-            Trap(
-                lambda: SLOW - _stopping_speed(_ENGINE_WORK, M1),
+            Mistake(
+                speed - math.sqrt(2.0 * work / mass),
                 "Energies subtract, speeds do not: the plateau reduces v².",
             ),
-        ),
-        reason="The engine is light, so its plateau slows it quickly.",
-    ),
-    Question(
-        words=f"Spring 2 and friction slow the body (m₂ = {M2:g} kg) with "
-        f"{BODY.plateau_force / 1e3:g} kN and {REFERENCE.friction_force / 1e3:g} kN over "
-        f"{BODY.plateau_length:g} m. Above which speed of the truck does its cargo reach a rigid "
-        "pier?",
-        dimension="speed",
-        answer=lambda: _stopping_speed(_BODY_WORK, M2),
-        traps=(
-            Trap(
-                lambda: _stopping_speed(BODY.plateau_force * BODY.plateau_length, M2),
-                "That leaves out the friction.",
+            Mistake(left(half=1.0), NO_HALF),
+            Mistake(left(speed=kmh), IN_KMH),
+            Mistake(left() * KMH, MS_AS_KMH),
+            Mistake(
+                math.sqrt(speed**2 + 2.0 * work / mass), "The plateau slows the engine: minus."
             ),
-            Trap(lambda: _stopping_speed(_ENGINE_WORK, M1), CARGO_NOT_ENGINE),
         ),
-        tolerance=0.01,
-        reason="Move the speed slider past this value: the second spike appears or disappears.",
+        start="What the work of the plateau force leaves of the engine’s kinetic energy?",
+        solution=f"v₁ = √(V² − 2 P₁ d₁ / m₁) = √(({speed:.4g} m/s)² − 2 × {1000 * kilonewtons} N × "
+        f"{decimetres / 10:g} m / {mass} kg) = {left():.4g} m/s",
+        reason="The engine is light, so its plateau takes up much of its energy.",
+    )
+
+
+def _threshold(numbers: Numbers) -> Question:
+    mass, metres = 100.0 * numbers.between(60, 68), numbers.between(14, 18) / 10
+    plateau, friction = numbers.between(420, 480, 10), numbers.between(40, 60, 5)
+
+    def speed(force: float = plateau + friction, half: float = 0.5) -> float:
+        return math.sqrt(1e3 * force * metres / (half * mass))
+
+    return Question(
+        words=f"The body of a truck ({mass:g} kg) is slowed by its plateau force of {plateau} kN "
+        f"and by friction of {friction} kN, over {metres:g} m. Above which speed of the truck "
+        "does its cargo reach a rigid pier?",
+        dimension="speed",
+        answer=speed(),
+        mistakes=(
+            Mistake(speed(force=plateau), "That leaves out the friction."),
+            Mistake(speed(force=plateau - friction), "Friction slows the body as well: it adds."),
+            Mistake(speed(half=1.0), NO_HALF),
+            Mistake(speed() * KMH, MS_AS_KMH),
+        ),
+        start="At that speed the work of both forces takes up all of the body’s kinetic energy.",
+        solution=f"½ m₂ V² = (P₂ + c_s) d₂, so V = √(2 × {1000 * (plateau + friction)} N × "
+        f"{metres:g} m / {mass:g} kg) = {speed():.4g} m/s",
+        reason="Below this speed there is no second spike.",
+    )
+
+
+_CHANGES = {
+    "the truck is slower": {"speed": 0.7},
+    "the crush length in front of its cargo is greater": {"body_plateau_length": 1.5},
+    "the plateau force in front of its cargo is larger": {"body_plateau_force": 1.5},
+    "its engine is heavier": {"engine_mass": 1.5},
+}
+
+
+@cache
+def _arrives(change: str) -> bool:
+    """Return whether the cargo still arrives after a change that is large on purpose."""
+    before = Scenario(speed=65.0 * KMH)
+    values = {name: factor * getattr(before, name) for name, factor in _CHANGES[change].items()}
+    body = values.get("engine_mass", REFERENCE.engine_mass) + REFERENCE.body_mass
+    after = replace(before, **values, truck_mass=body)
+    return history(after).cargo_contact_time is not None
+
+
+def _no_second_spike(numbers: Numbers) -> Question:
+    (innocent,) = filter(_arrives, _CHANGES)
+    length = numbers.between(65, 75)
+    return Question(
+        words=f"One truck causes two spikes at {length} km/h, another only the engine’s. They "
+        "differ in one thing. Which of these can it not be?",
+        answer=innocent,
+        choices={
+            "the truck is slower": "A slower body can be stopped by its plateau before the cargo "
+            "arrives.",
+            "the crush length in front of its cargo is greater": "A longer plateau takes up more "
+            "energy before the cargo arrives.",
+            "the plateau force in front of its cargo is larger": "A larger plateau force takes up "
+            "more energy before the cargo arrives.",
+            innocent: "",
+        },
+        solution=f"The cargo arrives if ½ m₂ V² > (P₂ + c_s) d₂. The engine’s mass does not stand "
+        f"in it, so it cannot be that {innocent}.",
+        reason="In this model engine and cargo are not joined: each has its own energy balance.",
+    )
+
+
+LESSON = Lesson(
+    title="1 · One collision",
+    minutes=40,
+    prediction=Prediction(
+        words="A truck of 8 t drives head-on into a bridge column at 80 km/h. How does the force "
+        "on the column develop until the truck stands still?",
+        choices=_CHOICES,
+        answer=_spikes,
+        look="Press ▶ and watch Forces: the orange and the blue line are the two springs.",
     ),
-    Question(
-        words="Load the explorer’s truck from 8 t to 20 t and change nothing else. Which spike "
-        "grows more?",
-        choices=PEAKS,
-        answer=_grows_with_mass,
-        reason="The load is behind the engine, and not connected to it in this model.",
+    misconceptions=(
+        Misconception(
+            "The truck strikes as one block.",
+            "Engine and cargo arrive one after the other, each with a spike of its own.",
+        ),
+        Misconception(
+            "The column feels the force at the bumper.",
+            "The column has to move before it carries anything: its reaction comes later, and can "
+            "be larger or smaller than the force.",
+        ),
+        Misconception(
+            "Most of the energy goes into the pier.",
+            "Almost all of it goes into crushed metal.",
+        ),
     ),
+    questions=(_stopping_length, _contact_speed, _threshold, _no_second_spike),
 )

@@ -1,36 +1,27 @@
-"""The truck, peaks and hints that the questions of several lessons share."""
+"""Hints and values that the questions of several lessons share."""
 
 from functools import cache
 
 from pierimpact.collision.history import CollisionHistory
-from pierimpact.teaching.scenario import REFERENCE, Scenario
+from pierimpact.teaching.scenario import Scenario
 
 KMH = 1.0 / 3.6
-SLOW = 60.0 * KMH  #: A speed that several questions ask about [m/s].
-M1, M2 = REFERENCE.engine_mass, REFERENCE.body_mass
-ENGINE, BODY = REFERENCE.engine_spring, REFERENCE.body_spring
-ENGINE_NOT_CARGO = "That is the cargo’s, not the engine’s."
-CARGO_NOT_ENGINE = "That is the engine’s, not the cargo’s."
-PEAKS = ("the engine peak", "the cargo peak")
+
+IN_KMH = "Was the speed that you put in in m/s? 36 km/h are 10 m/s."
+MS_AS_KMH = "That is the number in m/s: convert it, or give it that unit."
+NO_HALF = "Look at the kinetic energy again: there is a factor ½ in it."
+IN_TONNES = "Was the mass that you put in in kg? One tonne is 1000 kg."
+NO_ROOT = "The square root is missing."
+OMEGA = "A circular frequency ω in rad/s and a frequency f in Hz differ by 2π."
 
 
 @cache
-def _history(scenario: Scenario) -> CollisionHistory:
+def history(scenario: Scenario) -> CollisionHistory:
+    """Return a collision by the full model."""
     return scenario.history
 
 
-def engine_peak(scenario: Scenario) -> float:
-    """Return the engine peak of a collision [N]."""
-    return _history(scenario).engine_peak.reaction
-
-
-def cargo_peak(scenario: Scenario) -> float:
-    """Return the cargo peak of a collision that has one [N]."""
-    peak = _history(scenario).cargo_peak
-    assert peak is not None
-    return peak.reaction
-
-
-def growth(before: Scenario, after: Scenario) -> list[float]:
-    """Return the engine and the cargo peak after a change over those before it [-]."""
-    return [peak(after) / peak(before) for peak in (engine_peak, cargo_peak)]
+def growth(before: Scenario, after: Scenario) -> dict[str, float]:
+    """Return engine and cargo peak after a change over those before it [-]."""
+    pairs = zip(history(before).peaks.items(), history(after).peaks.values(), strict=True)
+    return {body: new.reaction / old.reaction for (body, old), new in pairs if old and new}

@@ -1,0 +1,268 @@
+"""What the lessons say is so: each claim of their prose is computed."""
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from reference import solve
+
+from pierimpact import EquivalentPier, load_truck
+from pierimpact.design.codes import aashto_lrfd
+from pierimpact.design.reduction import exact_amplification
+from pierimpact.teaching import explorer_data, readouts, widgets
+from pierimpact.teaching.checker import check
+from pierimpact.teaching.questions import LESSONS, questions
+from pierimpact.teaching.questions.common import growth
+from pierimpact.teaching.readouts import ENGINE_PEAK, first_peak_name
+from pierimpact.teaching.scenario import EXAMPLE, Scenario
+
+KMH = 1.0 / 3.6
+FILES = sorted((Path(__file__).parents[1] / "notebooks").glob("0*.ipynb"))
+
+
+def prose(lesson):
+    cells = json.loads(FILES[list(LESSONS).index(lesson)].read_text(encoding="utf-8"))["cells"]
+    return "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown")
+
+
+def on_a_pier(hertz, **other):
+    return Scenario(pier_mass=8e3, pier_frequency=float(hertz), **other)
+
+
+def says(lesson, words):
+    """Hold the prose to the words whose truth is computed beside the call."""
+    assert words in prose(lesson), words
+
+
+@pytest.mark.parametrize("lesson", LESSONS)
+def test_a_lesson_names_its_title_and_every_belief_that_it_corrects(lesson):
+    assert prose(lesson).startswith(f"# {LESSONS[lesson].title}")
+    for belief, truth in LESSONS[lesson].misconceptions:
+        says(lesson, f"- *{belief}* {truth}")
+
+
+@pytest.mark.parametrize("lesson", LESSONS)
+def test_a_prediction_has_one_right_choice_and_a_word_to_each(lesson):
+    prediction = LESSONS[lesson].prediction
+    assert prediction.answer() in prediction.choices
+    assert len(prediction.choices) >= 3
+    assert all(prediction.choices.values())
+
+
+def test_the_predictions_come_true():
+    """By the tests' own integration where there is one, by the explorer's numbers otherwise."""
+    truck = load_truck("single-unit-8t")
+    right = {name: lesson.prediction.answer() for name, lesson in LESSONS.items()}
+    default = Scenario()
+    found = solve(truck, default.pier, 80.0 * KMH)
+    assert right["collision"].startswith("two spikes")
+    assert found.cargo > 1.5 * (truck.engine_spring.plateau_force + truck.body_spring.plateau_force)
+    assert right["design"].startswith("more than twice")
+    assert max(found.engine, found.cargo) > 2.0 * 2668.9e3
+    assert aashto_lrfd().along.value == pytest.approx(2668.9e3, rel=1e-4)
+    soft, stiff = (
+        solve(truck, EquivalentPier(mass=8e3, stiffness=8e3 * (2 * np.pi * f) ** 2), 80.0 * KMH)
+        for f in (10.0, 100.0)
+    )
+    assert right["spectra"] == "mainly the engine’s"
+    assert stiff.engine / soft.engine > 3.0 > 1.2 > stiff.cargo / soft.cargo
+    assert right["reduction"] == "a smaller reaction"
+    assert soft.engine < 0.4 * stiff.engine
+    free = Scenario(top="free").column
+    assert right["pier"].startswith("more than")
+    assert free.struck_at(1.2).mass > free.mass_per_length * free.height
+    assert right["limits"] == "the engine’s mass"
+    changes = explorer_data.influences(default)["engine"]
+    most = explorer_data.PARAMETERS[int(np.abs(changes).max(axis=1).argmax())]
+    assert most.meaning == "engine mass"
+
+
+EXPLORERS = dict(zip(LESSONS, (*list(LESSONS)[:-1], "sensitivity"), strict=True))
+
+
+@pytest.mark.parametrize("lesson", LESSONS)
+def test_no_answer_stands_above_its_question(lesson):
+    """Neither in the prose nor in the explorer as it opens, but for what chance brings about."""
+    readout = getattr(widgets, EXPLORERS[lesson])().views["readout"].widget.value
+    shown = prose(lesson) + re.sub("<[^>]+>", " ", readout)
+    quantities = set(re.findall(r"(?<![\w.])\d[\d.\u202f]*(?: [A-Za-z/]+)?", shown))
+    everyones = [questions(lesson, str(index)) for index in range(20)]
+    for asked in zip(*everyones, strict=True):
+        if not asked[0].choices:
+            given_away = [any(check(q, text).right for text in quantities) for q in asked]
+            assert sum(given_away) < 0.3 * len(asked), asked[0].words
+
+
+def test_collision_claims():
+    history, scenario = Scenario().history, Scenario()
+    energy, truck = history.energy, scenario.truck
+    whole = scenario.collision.energy
+    says(
+        "collision",
+        "Nine tenths of it are dissipated in crushing metal, more than half of it all on",
+    )
+    assert 0.88 < energy.crush[-1] / whole < 0.92
+    says("collision", "more than half of it all on the plateaus")
+    plateaus = sum(
+        spring.plateau_force * spring.plateau_length
+        for spring in (truck.engine_spring, truck.body_spring)
+    )
+    assert 0.5 < plateaus / whole < 0.55
+    says("collision", "Never more than a hundredth is in the pier")
+    in_pier = energy.pier_elastic + 0.5 * scenario.pier.mass * history.pier_velocity**2
+    assert in_pier.max() < 0.01 * whole
+    says("collision", "Below 60 km/h the second spike disappears, and below 53 km/h the first.")
+    for speed, engine, cargo in ((60.0, True, True), (59.0, True, False), (52.5, False, False)):
+        slow = Scenario(speed=speed * KMH).history
+        assert (slow.engine_contact_time is not None) is engine
+        assert (slow.cargo_contact_time is not None) is cargo
+    says("collision", "the push of the plateaus, at 1.2 MN: the pier overshoots their force")
+    for speed in (20.0, 35.0, 50.0):
+        slow = Scenario(speed=speed * KMH).history
+        assert slow.engine_peak.reaction == pytest.approx(1.2e6, rel=0.02)
+        assert slow.engine_peak.reaction > 1.8 * slow.contact_force.max() * 650.0 / 671.5 * 0.98
+    says("collision", "The engine's spring force hardly changes, but the reaction does.")
+    soft = Scenario(column_diameter=0.6, column_height=8.0, top="free").history
+    assert soft.engine_force.max() == pytest.approx(history.engine_force.max(), rel=0.05)
+    assert soft.engine_peak.reaction < 0.25 * history.engine_peak.reaction
+
+
+@pytest.mark.parametrize("top", ["pinned", "free"])
+def test_pier_claims(top):
+    says("pier", "at 0.6 m the default column deflects more in shear than in bending")
+    struck = Scenario(top=top).column.struck_at(0.6)
+    assert struck.values["xs"] > 0.5 * struck.values["xn"]
+    higher = Scenario(top=top).column.struck_at(1.2)
+    assert higher.values["xs"] < 0.5 * higher.values["xn"]
+
+
+def test_the_limit_of_the_impulse_is_that_of_two_free_masses():
+    """The yellow line, with 1/(1+μ); damping takes what a damped oscillator's first swing lacks."""
+    says("reduction", "S \\to \\frac{(1+e)\\, \\beta}{1+\\mu}")
+    generator = np.random.default_rng(3)
+    for share, e in generator.uniform((0.05, 0.1), (0.9, 0.9), (4, 2)):
+        # Lighter bodies than this leave the pier for good: their speed exceeds the largest chord
+        # of its way back, max |sin θ|/θ for θ from π to 2π.
+        mu = share * e / (1.0 + 0.2172 * (1.0 + e))
+        pair = (float(mu), float(mu)), (float(e), float(e))
+        line = explorer_data.amplifications(*pair, 0.0)["engine"]
+        soft = line.ratio < 0.03
+        assert line.exact[soft] == pytest.approx(line.impulse[soft], rel=5e-3)
+        damped = explorer_data.amplifications(*pair, 0.05)["engine"]
+        first = np.exp(-0.05 / np.sqrt(1.0 - 0.05**2) * np.arccos(0.05))
+        assert damped.exact[soft] == pytest.approx(first * damped.impulse[soft], rel=5e-3)
+    says("reduction", "With 5 % of damping the exact curve stays 7 % below it")
+    values = explorer_data.short_procedure(EXAMPLE)
+    mu, e = ((values[f"{name}1"], values[f"{name}2"]) for name in ("mu", "e"))
+    for curve in explorer_data.amplifications(mu, e, EXAMPLE.damping_ratio).values():
+        soft = curve.ratio < 0.1
+        assert curve.exact[soft] / curve.impulse[soft] == pytest.approx(0.93, abs=0.005)
+
+
+def amplifications_at(hertz):
+    values = explorer_data.short_procedure(on_a_pier(hertz))
+    return values["S1"], values["S2"]
+
+
+def test_reduction_claims():
+    values = explorer_data.short_procedure(EXAMPLE)
+    says(
+        "reduction",
+        "the engine (stiff, light, fast) has a β below 1",
+    )
+    assert values["beta1"] < 0.5 < 5.0 < values["beta2"]
+    says("reduction", "its blow lasts about a third of that period")
+    assert 0.25 * (1.0 + values["e1"]) == pytest.approx(1.0 / 3.0, abs=0.03)  # up, and down faster
+    says("reduction", "the engine's rises while the cargo's stays within a tenth of 1")
+    engine, cargo = np.array([amplifications_at(f) for f in np.geomspace(30.0, 200.0, 13)]).T
+    assert np.abs(cargo - 1.0).max() < 0.1
+    assert engine[-1] > 2.5 * engine[0]
+    says("reduction", "up to *S* = 1.3 near 14 Hz, and down to 0.6 at 5 Hz")
+    frequencies = np.linspace(5.0, 30.0, 26)
+    below = np.array([amplifications_at(f)[1] for f in frequencies])
+    assert below.max() == pytest.approx(1.3, abs=0.05)
+    assert frequencies[below.argmax()] == pytest.approx(14.0, abs=1.5)
+    assert below[0] == pytest.approx(0.6, abs=0.02)
+    says("reduction", "here up to one and a half times as far. That is not resonance")
+    ratios = np.geomspace(0.5, 20.0, 120)
+    for i in (1, 2):
+        curve = exact_amplification(ratios, values[f"mu{i}"], values[f"e{i}"], 0.05)
+        assert 1.3 < curve.max() < 1.6
+    assert exact_amplification([400.0], values["mu1"], values["e1"], 0.05) == pytest.approx(1, 0.01)
+
+
+def test_no_prose_calls_an_overshoot_resonance():
+    for lesson in LESSONS:
+        for sentence in re.split(r"(?<=[.:])\s", prose(lesson)):
+            if "resonan" in sentence.lower():
+                assert "not resonance" in sentence or "repeats" in sentence or "exceeds" in sentence
+
+
+def test_spectra_claims():
+    says("spectra", "Below 3.5 Hz there is no engine peak at all")
+    for hertz in (2.0, 2.5, 3.0):
+        assert first_peak_name(on_a_pier(hertz).history) != ENGINE_PEAK
+    for hertz in (3.5, 4.0, 10.0, 100.0):
+        assert first_peak_name(on_a_pier(hertz).history) == ENGINE_PEAK
+    curves = EXAMPLE.curves
+    says("spectra", "between 10 and 20 Hz, the cargo's line has its maximum")
+    assert 10.0 < curves.frequency[curves.full["cargo"].argmax()] < 20.0
+    says("spectra", "The cargo's rises up to some 15 Hz and then falls slowly")
+    assert curves.full["cargo"][-1] > 0.6 * curves.full["cargo"].max()
+    says("spectra", "Increase the damping and they fade.")
+    rough = [
+        np.abs(np.diff(np.log(on_a_pier(30.0, damping_ratio=ratio).curves.full["cargo"]), 2)).sum()
+        for ratio in (0.05, 0.1, 0.2)
+    ]
+    assert rough[0] > 1.5 * rough[1] > 3.0 * rough[2]
+    says("spectra", "Its mass changes the cargo's spectrum, but not the engine's.")
+    says("spectra", "The cargo's spectrum falls faster than the engine's, and disappears.")
+    for hertz in (10.0, 30.0, 60.0, 100.0):
+        loaded = growth(on_a_pier(hertz), on_a_pier(hertz, truck_mass=16e3))
+        assert loaded["engine"] == pytest.approx(1.0, abs=1e-3)
+        assert loaded["cargo"] > 1.4
+        slower = growth(on_a_pier(hertz), on_a_pier(hertz, speed=70.0 * KMH))
+        assert slower["cargo"] < slower["engine"] < 1.0
+        assert on_a_pier(hertz, speed=58.0 * KMH).history.cargo_peak is None
+    says("spectra", "soft piers are governed by the cargo, stiff ones by the engine")
+    governs = curves.full["engine"] > curves.full["cargo"]
+    assert np.abs(np.diff(governs.astype(int))).sum() == 1
+    assert governs[-1]
+
+
+@settings(max_examples=40)
+@given(
+    speed=st.floats(20.0, 110.0),
+    hertz=st.floats(2.0, 200.0),
+    mass=st.floats(2e3, 3e4),
+)
+def test_an_engine_peak_is_a_peak_after_the_engine_struck(speed, hertz, mass):
+    history = Scenario(speed=speed * KMH, pier_mass=mass, pier_frequency=hertz).history
+    reaction, time = history.engine_peak
+    around = np.array([time - 1e-5, time + 1e-5])
+    falls = bool(np.all(history.reaction_at(around) <= reaction * (1.0 + 1e-9)))
+    struck = history.engine_contact_time is not None and time >= history.engine_contact_time
+    name = first_peak_name(history)
+    assert (name == ENGINE_PEAK) is (struck and falls)
+    assert name.startswith("Largest reaction") is (name != ENGINE_PEAK)
+    words = readouts.outcome(Scenario(speed=speed * KMH, pier_mass=mass, pier_frequency=hertz))
+    assert ("Engine peak" in words) is (name == ENGINE_PEAK)
+    if name != ENGINE_PEAK:
+        assert "The engine governs" not in words
+
+
+def test_the_explorer_gives_the_first_peak_its_true_name():
+    explorer = widgets.collision()
+    button = explorer._moments[ENGINE_PEAK]
+    assert button.description == ENGINE_PEAK
+    explorer.set(speed=35.0 * KMH)
+    assert button.description == "Largest reaction"
+    assert "Engine peak" not in explorer.views["readout"].widget.value
+    explorer = widgets.spectra()
+    explorer.set(pier_frequency=2.0)
+    assert "Largest reaction before cargo contact" in explorer.views["readout"].widget.value
+    assert "Engine peak" not in explorer.views["readout"].widget.value
