@@ -30,9 +30,9 @@ _LINES: dict[str, dict[str, Any]] = {
 }
 _BY_HAND: dict[str, Any] = {"linewidth": 0.8, "dashes": (4, 2)}
 _GOVERNS = "#e9edf0"
-# So many times the lowest is the highest frequency of a range that is named, and of two beside each
-# other whose border is marked.
-_NAMED, _APART = 2.0, 1.3
+# So many times its lowest is the highest frequency of a range that is named, and one change that is
+# marked the next below.
+_NAMED, _APART = 2.0, 1.2
 
 
 def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
@@ -105,8 +105,10 @@ def _shade(axes: Axes, spectrum: Variation) -> list[Label]:
             places = [(own, 0.97 * top) for own in np.geomspace(low, high, 11)[3:-3]]
             words = f"{'cargo' if governs else 'engine'} governs"
             labels.append(Label(axes, words, places, (0.0, 0.0), {"color": MUTED}))
-    for number, crossing in enumerate(crossings):
-        if min(wide[number], wide[number + 1]) > _APART:
+    above = np.inf
+    for crossing in crossings[::-1]:
+        if above > _APART * crossing:
+            above = crossing
             axes.axvline(crossing, color=MUTED, linewidth=0.6, dashes=(2, 2))
             points = [(crossing, share * top) for share in (0.04, 0.5, 0.9)]
             labels.append(Label(axes, f"{crossing:.3g} Hz", points, options={"color": MUTED}))
