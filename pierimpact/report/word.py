@@ -31,6 +31,10 @@ _RELATION = (
     '<Relationship Id="{0}" Target="{0}.xml" '
     'Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/{0}"/>'
 )
+_COMPATIBLE = (  # with Word of 2013 and after; or else Word lays it out as that of 2007 did
+    '<w:compat><w:compatSetting w:name="compatibilityMode" w:val="15" '
+    'w:uri="http://schemas.microsoft.com/office/word"/></w:compat>'
+)
 _PAPER = {"a4": (11906, 16838), "us-letter": (12240, 15840)}  # twentieths of a point
 _SIDES = 1247 + 1134  # margins, as in the template of the page
 _DOTS = 200  # of a drawing, an inch; this project's choice
@@ -142,12 +146,13 @@ class SheetWordExporter(SheetHTMLExporter):
             for name in ("styles", "document", "header", "footer")
         }
         default = _parts_in(done.stdout)
-        for name, end, line in (
-            ("[Content_Types].xml", "</Types>", _CONTENT_TYPE),
-            ("word/_rels/document.xml.rels", "</Relationships>", _RELATION),
+        running = ("header", "footer")
+        for name, before, added in (
+            ("[Content_Types].xml", "</Types>", map(_CONTENT_TYPE.format, running)),
+            ("word/_rels/document.xml.rels", "</Relationships>", map(_RELATION.format, running)),
+            ("word/settings.xml", "<w:rsids>", [_COMPATIBLE]),
         ):
-            lines = "".join(line.format(part) for part in ("header", "footer"))
-            parts[name] = default[name].decode().replace(end, lines + end)
+            parts[name] = default[name].decode().replace(before, "".join(added) + before)
         return _rewritten(done.stdout, parts)
 
 
