@@ -3,6 +3,7 @@
 import html
 import io
 import re
+from xml.etree import ElementTree
 
 import pytest
 from nbformat import v4
@@ -36,7 +37,7 @@ class Made:
 def made():
     """A case in US units; of pages in SI units, the lesson below is one."""
     entries = {"project": "Bridge over a road", "element": "P<3> & more", "job_number": "0042"}
-    return Made(US_CASE | entries)
+    return Made(US_CASE | entries | {"annexes": "all"})
 
 
 def test_equations_are_native_and_numbered_with_their_names(made):
@@ -75,8 +76,9 @@ def test_tables_are_tables(made):
             ):
                 if isinstance(words, str):
                     assert squeezed(text_of(cell)) == squeezed(words)
-                sides = [WordFile.get(jc, "w:val") for jc in cell.iter(name("w:jc"))]
-                assert ("right" in sides) == (column["align"] == "decimal")
+                if text_of(cell).strip():
+                    sides = [WordFile.get(jc, "w:val") for jc in cell.iter(name("w:jc"))]
+                    assert ("right" in sides) == (column["align"] == "decimal")
 
 
 def test_every_cell_of_the_page_is_in_the_document(made):
@@ -95,13 +97,16 @@ def test_drawings_are_pictures_of_two_hundred_dots_an_inch_with_words_for_them(m
     found = made.word.all("body", "wp:docPr")
     assert [each.get("descr") for each in found] == [part["alt"] for part in drawings]
     sizes = made.word.all("body", "wp:extent")
-    pictures = [data for file, data in made.word.files.items() if file.endswith(".png")]
+    places = re.findall('embed="(.*?)"', made.word.files["word/document.xml"].decode())
+    relations = ElementTree.fromstring(made.word.files["word/_rels/document.xml.rels"])
+    targets = {relation.get("Id"): relation.get("Target") for relation in relations}
+    pictures = [made.word.files[f"word/{targets[place]}"] for place in places]
     assert len(sizes) == len(pictures) == len(drawings)
     for picture, size in zip(pictures, sizes, strict=True):
         width, height = Image.open(io.BytesIO(picture)).size
         on_page = int(size.get("cx")) / 914400
-        assert on_page == pytest.approx(8.5 - 42.0 / 25.4, abs=0.02)
-        assert width / on_page == pytest.approx(200.0, rel=0.01)
+        assert on_page <= 8.5 - 42.0 / 25.4 + 0.01
+        assert width / on_page > 199.0
         assert height / width == pytest.approx(int(size.get("cy")) / int(size.get("cx")), rel=0.01)
 
 
@@ -138,7 +143,8 @@ def test_headings_are_headings_with_the_numbers_of_the_page(made):
 
 
 def test_every_page_says_whose_it_is_and_which(made):
-    entries = dict(made.of("TitleBlock")[0]["entries"])
+    title = made.of("TitleBlock")[0]
+    entries = dict(title["entries"]) | dict(title["running"])
     head, foot = (text_of(made.word.parts[part]) for part in ("header", "footer"))
     for label in ("Project", "Element", "Job number"):
         assert entries[label] in head
@@ -148,8 +154,8 @@ def test_every_page_says_whose_it_is_and_which(made):
     assert fields == [" PAGE ", " NUMPAGES "]
     (size,) = made.word.all("body", "w:pgSz")
     assert [WordFile.get(size, f"w:{side}") for side in "wh"] == ["12240", "15840"]
-    title = made.word.all("core", "dc:title")[0].text
-    assert title == f"P<3> & more — Bridge over a road — {made.of('TitleBlock')[0]['title']}"
+    name_of_file = made.word.all("core", "dc:title")[0].text
+    assert name_of_file == f"P<3> & more — Bridge over a road — {title['title']}"
 
 
 def test_the_same_bytes_twice(made, monkeypatch):

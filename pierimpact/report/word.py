@@ -41,6 +41,10 @@ _COMPATIBLE = (  # with Word of 2013 and after; or else Word lays it out as that
     '<w:compat><w:compatSetting w:name="compatibilityMode" w:val="15" '
     'w:uri="http://schemas.microsoft.com/office/word"/></w:compat>'
 )
+_INSTEAD = {  # of what pandoc writes: equations start at the left, and drawings at the margin
+    '<m:jc m:val="center" />': '<m:jc m:val="left" />',
+    "<wp:inline>": '<wp:inline distT="0" distB="0" distL="0" distR="0">',
+}
 _PAPER = {"a4": (11906, 16838), "us-letter": (12240, 15840)}  # twentieths of a point
 _SIDES = 1247 + 1134  # margins, as in the template of the page
 _DOTS = 200  # of a drawing, an inch; this project's choice
@@ -135,9 +139,9 @@ class SheetWordExporter(SheetHTMLExporter):
             if done.returncode != 0:
                 raise RuntimeError(f"pandoc: {done.stderr.strip()}")
             document = (here / "sheet.docx").read_bytes()
-        # Pandoc centres all equations; here they start at the left, one below the other.
         body = _parts_in(document)["word/document.xml"].decode()
-        body = body.replace('<m:jc m:val="center" />', '<m:jc m:val="left" />')
+        for pandocs, own in _INSTEAD.items():
+            body = body.replace(pandocs, own)
         return _rewritten(document, {"word/document.xml": body}), resources
 
     def _reference(self, sheet: dict[str, Any]) -> bytes:
