@@ -17,13 +17,19 @@ from test_report import NASTY, Text, squeezed
 from word_file import WordFile
 
 from pierimpact.report.document.blocks import (
+    Annex,
+    Beside,
     Contents,
+    Group,
     Headline,
+    Listing,
     Nomenclature,
     Notes,
     Notice,
     Paragraph,
+    Signatures,
     TitleBlock,
+    Verdict,
 )
 from pierimpact.report.document.markup import Code, Link, Ref, Tex
 from pierimpact.report.document.numbered import Column, Equation, Figure, Steps, Table
@@ -61,6 +67,21 @@ BLOCKS = [
     ),
     (Steps([EQUATION]), 4),
     (Figure(label="fig-x", caption=RUN, alt=NASTY, svg=SVG), 3),
+    (
+        Verdict(
+            statement=RUN,
+            stops=True,
+            svg=SVG,
+            alt=NASTY,
+            results=[(NASTY, Printed(NASTY, NASTY), RUN)],
+        ),
+        3 + 1 + 2 + 3,
+    ),
+    (Signatures(signers=[(NASTY, NASTY)], revisions=[[NASTY] * 4]), 6),
+    (Beside(left=[Paragraph(RUN)], right=[Paragraph(NASTY)], share=0.5), 4),
+    (Group([Paragraph(RUN)]), 3),
+    (Listing(NASTY, NASTY), 2),
+    (Annex(title=NASTY, printed=True), 1),
 ]
 
 
@@ -74,13 +95,13 @@ def test_text_is_never_markup_in_a_cell(block, count):
     assert shown(block._repr_html_()) == count
     assert not {"b", "script", "style"} & {tag for tag, _ in cell.tags}
     names = {name for _, attributes in cell.tags for name in attributes}
-    assert names <= {"class", "id", "href", "scope", "alt", "src", "aria-label"}
+    assert names <= {"class", "id", "href", "scope", "alt", "src", "aria-label", "style"}
 
 
 def test_text_is_never_markup_in_a_page_or_pdf():
     notebook = notebook_of([block for block, _ in BLOCKS])
     page, _ = SheetHTMLExporter().from_notebook_node(notebook)
-    assert shown(page) == sum(count for _, count in BLOCKS)
+    assert shown(page) == sum(count for _, count in BLOCKS) + 1  # the contents list the annex
     assert not {"b", "script"} & {tag for tag, _ in Text(page).tags}
     pdf, _ = SheetPDFExporter().from_notebook_node(notebook)
     text = "".join(page.extract_text() for page in pypdf.PdfReader(io.BytesIO(pdf)).pages)
@@ -93,9 +114,9 @@ def test_text_is_never_markup_in_a_word_document():
     notebook = notebook_of([block for block, _ in BLOCKS])
     document, _ = SheetWordExporter().from_notebook_node(notebook)
     words = WordFile(document)
-    assert squeezed(words.text).count(squeezed(NASTY)) == sum(count for _, count in BLOCKS)
-    (drawing,) = words.all("body", "wp:docPr")
-    assert squeezed(drawing.get("descr")) == squeezed(NASTY)
+    assert squeezed(words.text).count(squeezed(NASTY)) == sum(count for _, count in BLOCKS) + 1
+    drawings = words.all("body", "wp:docPr")
+    assert [squeezed(each.get("descr")) for each in drawings] == [squeezed(NASTY)] * 2
 
 
 @pytest.mark.parametrize(("block", "count"), BLOCKS)

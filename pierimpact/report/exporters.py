@@ -296,7 +296,7 @@ class SheetPDFExporter(_SheetExporter):
         environment.comment_start_string, environment.comment_end_string = "((--", "--))"
         environment.autoescape, environment.finalize = True, typst_string
         environment.filters["breakable"] = _breakable
-        environment.filters["bytes"] = _bytes
+        environment.filters["bytes"] = typst_bytes
         return environment
 
     def from_notebook_node(
@@ -337,7 +337,7 @@ def _breakable(text: str) -> str:
     return re.sub(r"[!-~]{20,}", lambda word: "\u200b".join(word[0]), text)
 
 
-def _bytes(base64_text: str) -> Any:
+def typst_bytes(base64_text: str) -> Any:
     """Return a file in base64 as the numbers that Typst makes bytes of."""
     return Markup(", ".join(map(str, base64.b64decode(base64_text))) + ",")
 

@@ -23,7 +23,13 @@ from pypandoc import get_pandoc_path
 
 from pierimpact.report.document.markup import tex_length
 from pierimpact.report.document.numbered import CONTINUED
-from pierimpact.report.exporters import SheetHTMLExporter, font_folder, parts_of, typst_string
+from pierimpact.report.exporters import (
+    SheetHTMLExporter,
+    font_folder,
+    parts_of,
+    typst_bytes,
+    typst_string,
+)
 
 _TYPE = "application/vnd.openxmlformats-officedocument.wordprocessingml"
 _CONTENT_TYPE = f'<Override PartName="/word/{{0}}.xml" ContentType="{_TYPE}.{{0}}+xml"/>'
@@ -31,6 +37,14 @@ _RELATION = (
     '<Relationship Id="{0}" Target="{0}.xml" '
     'Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/{0}"/>'
 )
+_COMPATIBLE = (  # with Word of 2013 and after; or else Word lays it out as that of 2007 did
+    '<w:compat><w:compatSetting w:name="compatibilityMode" w:val="15" '
+    'w:uri="http://schemas.microsoft.com/office/word"/></w:compat>'
+)
+_INSTEAD = {  # of what pandoc writes: equations start at the left, and drawings at the margin
+    '<m:jc m:val="center" />': '<m:jc m:val="left" />',
+    "<wp:inline>": '<wp:inline distT="0" distB="0" distL="0" distR="0">',
+}
 _PAPER = {"a4": (11906, 16838), "us-letter": (12240, 15840)}  # twentieths of a point
 _SIDES = 1247 + 1134  # margins, as in the template of the page
 _DOTS = 200  # of a drawing, an inch; this project's choice
@@ -71,8 +85,16 @@ class SheetWordExporter(SheetHTMLExporter):
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
         sheet = super()._sheet(nb)
         sheet["size"] = _PAPER[sheet["paper"]][:: -1 if sheet["landscape"] else 1]
-        for number, part in enumerate(_drawn(sheet), 1):
-            part["png"] = f"drawing-{number}.png"
+        drawn = [part for part in parts_of(sheet["blocks"]) if part.get("svg") or part.get("logo")]
+        pictures = _pictures(drawn)
+        for number, (part, picture) in enumerate(zip(drawn, pictures, strict=True), 1):
+            dots = int.from_bytes(picture[16:20])  # the width, in the head of a PNG
+            part |= {
+                "png": f"drawing-{number}.png",
+                "width": round(2.54 * dots / _DOTS, 3),
+                "most": round(2.54 / 1440 * (sheet["size"][0] - _SIDES), 3),
+            }
+        sheet["pictures"] = {part["png"]: data for part, data in zip(drawn, pictures, strict=True)}
         return sheet
 
     def _pandoc(self, pieces: list[str]) -> list[str]:
@@ -92,13 +114,12 @@ class SheetWordExporter(SheetHTMLExporter):
         resources["output_extension"] = ".docx"
         sheet = resources["sheet"]
         folder = Path(self.extra_template_basedirs[0]) / self.template_name
-        entries = dict(sheet["entries"])
+        entries = dict(sheet["running"]) | dict(sheet["entries"])
         day = datetime.fromisoformat(f"{sheet['date']}T00:00:00").replace(tzinfo=UTC)
         with tempfile.TemporaryDirectory() as place:
             here = Path(place)
-            pictures = _pictures([part["svg"] for part in _drawn(sheet)], sheet["size"][0] - _SIDES)
-            for part, picture in zip(_drawn(sheet), pictures, strict=True):
-                (here / part["png"]).write_bytes(picture)
+            for name, picture in sheet["pictures"].items():
+                (here / name).write_bytes(picture)
             (here / "reference.docx").write_bytes(self._reference(sheet))
             done = subprocess.run(
                 [
@@ -118,9 +139,9 @@ class SheetWordExporter(SheetHTMLExporter):
             if done.returncode != 0:
                 raise RuntimeError(f"pandoc: {done.stderr.strip()}")
             document = (here / "sheet.docx").read_bytes()
-        # Pandoc centres all equations; here they start at the left, one below the other.
         body = _parts_in(document)["word/document.xml"].decode()
-        body = body.replace('<m:jc m:val="center" />', '<m:jc m:val="left" />')
+        for pandocs, own in _INSTEAD.items():
+            body = body.replace(pandocs, own)
         return _rewritten(document, {"word/document.xml": body}), resources
 
     def _reference(self, sheet: dict[str, Any]) -> bytes:
@@ -132,7 +153,7 @@ class SheetWordExporter(SheetHTMLExporter):
             start_new_session=True,
         )
         width, height = sheet["size"]
-        entries = {label: text or "—" for label, text in sheet["entries"]}
+        entries = dict(sheet["running"]) | dict(sheet["entries"])
         parts = {
             f"word/{name}.xml": str(
                 self.environment.get_template(f"{name}.xml.j2").render(
@@ -142,30 +163,30 @@ class SheetWordExporter(SheetHTMLExporter):
             for name in ("styles", "document", "header", "footer")
         }
         default = _parts_in(done.stdout)
-        for name, end, line in (
-            ("[Content_Types].xml", "</Types>", _CONTENT_TYPE),
-            ("word/_rels/document.xml.rels", "</Relationships>", _RELATION),
+        running = ("header", "footer")
+        for name, before, added in (
+            ("[Content_Types].xml", "</Types>", map(_CONTENT_TYPE.format, running)),
+            ("word/_rels/document.xml.rels", "</Relationships>", map(_RELATION.format, running)),
+            ("word/settings.xml", "<w:rsids>", [_COMPATIBLE]),
         ):
-            lines = "".join(line.format(part) for part in ("header", "footer"))
-            parts[name] = default[name].decode().replace(end, lines + end)
+            parts[name] = default[name].decode().replace(before, "".join(added) + before)
         return _rewritten(done.stdout, parts)
 
 
-def _drawn(sheet: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the parts of a sheet that are drawings."""
-    return [part for part in parts_of(sheet["blocks"]) if "svg" in part]
-
-
-def _pictures(drawings: Sequence[str], width: float) -> list[bytes]:
-    """Return drawings as PNG; the width is that of the text, in twentieths of a point."""
-    if not drawings:
+def _pictures(drawn: Sequence[dict[str, Any]]) -> list[bytes]:
+    """Return the drawings of parts as PNG, and their logos."""
+    if not drawn:
         return []
     compiled: Any = typst.compile
+    pages = (
+        f'image(bytes({typst_string(part["svg"])}), format: "svg")'
+        if part.get("svg")
+        else f"image(bytes(({typst_bytes(part['logo'][1])})), height: 11mm)"
+        for part in drawn
+    )
     pictures = compiled(
         "".join(
-            f"#page(width: {width / 20}pt, height: auto, margin: 0pt, "
-            f'image(bytes({typst_string(drawing)}), format: "svg", width: 100%))'
-            for drawing in drawings
+            f"#page(width: auto, height: auto, margin: 0pt, {page})" for page in pages
         ).encode(),
         format="png",
         ppi=_DOTS,
