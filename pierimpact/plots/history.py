@@ -36,12 +36,14 @@ def draw_history(history: CollisionHistory, system: str) -> str:
     margins = {"left": 15.0, "right": 3.0, "bottom": 8.0, "top": 2.0}
     with page_figure(TEXT_WIDTH, 64.0, **margins, hspace=0.06) as figure:
         axes, strip = figure.subplots(2, 1, sharex=True, height_ratios=(6.0, 1.0))
-        time = history.time / ms
+        until = _end(history)
+        part = history.time <= until
+        time = history.time[part] / ms
         axes.axhline(0.0, color=INK, linewidth=0.5)
-        axes.plot(time, history.contact_force / force, **_CONTACT)
-        axes.plot(time, history.reaction / force, **_REACTION)
+        axes.plot(time, history.contact_force[part] / force, **_CONTACT)
+        axes.plot(time, history.reaction[part] / force, **_REACTION)
         axes.set_ylabel(f"Force [{unit_of('force', system)}]")
-        axes.set_xlim(0.0, float(time[-1]))
+        axes.set_xlim(0.0, until / ms)
         axes.margins(y=0.16)
         axes.tick_params(axis="x", labelbottom=False)
         labels = [_mark(axes, *found, system) for found in _peaks(history).items()]
@@ -49,7 +51,7 @@ def draw_history(history: CollisionHistory, system: str) -> str:
             ("reaction $R$", history.reaction, _REACTION),
             ("contact force", history.contact_force, _CONTACT),
         ):
-            points = _along(time, values / force)
+            points = _along(time, values[part] / force)
             labels.append(Label(axes, words, points, options={"color": line["color"]}))
         place(figure, labels + _draw_contacts(strip, history, system))
         strip.set_xlabel(f"Time after first touch [{unit_of('time', system)}]")
@@ -65,6 +67,16 @@ def _peaks(history: CollisionHistory) -> dict[str, Peak]:
         name = "Lowest" if lowest < len(history.time) - 1 else "Lowest so far"
         peaks[name] = Peak(float(history.reaction[lowest]), float(history.time[lowest]))
     return peaks
+
+
+def _end(history: CollisionHistory) -> float:
+    """Return the time up to which a collision is drawn: a little beyond all that happens [s]."""
+    forces = (history.engine_force, history.body_force)
+    last = max(
+        *(peak.time for peak in _peaks(history).values()),
+        *(float(history.time[force > 0.0].max(initial=0.0)) for force in forces),
+    )
+    return min(1.05 * last, float(history.time[-1]))
 
 
 def _mark(axes: Axes, name: str, peak: Peak, system: str) -> Label:

@@ -279,8 +279,16 @@ def calculate(case: Case) -> Calculation:
     def impact(height: float) -> Impact:
         struck = case.column.struck_at(height)
         pier = struck.equivalent(case.inputs.damping_ratio)
-        return Impact(
-            case=case, struck=struck, history=simulate(case.truck, pier, case.inputs.speed)
-        )
+        return Impact(case=case, struck=struck, history=_with_reversal(case, pier))
 
     return Calculation(case=case, impacts=tuple(map(impact, case.impact_heights)))
+
+
+def _with_reversal(case: Case, pier: EquivalentPier) -> CollisionHistory:
+    """Return the collision, followed until the pier has swung back as far as it will."""
+    history = simulate(case.truck, pier, case.inputs.speed)
+    end = float(history.time[-1])
+    # A pier that vibrates freely swings back within a period, and less far ever after.
+    if history.reaction.argmin() == len(history.reaction) - 1:
+        history = simulate(case.truck, pier, case.inputs.speed, end + 1.0 / pier.frequency)
+    return history

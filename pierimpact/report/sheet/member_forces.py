@@ -188,8 +188,8 @@ class MemberForces(Section):
         ]  # fmt: skip
         return Table(
             label="tab-yielding",
-            caption="If the column yields in bending: the full model, elastic up to the reaction at "
-            "which the moment resistance is first reached and perfectly plastic from there. A "
+            caption="If the column yields in bending: the full model, elastic up to the reaction "
+            "at which the moment resistance is first reached and perfectly plastic from there. A "
             "redundant column carries more until it is a mechanism. How much ductility the section "
             "has is not checked; shear is not ductile.",
             columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
