@@ -175,7 +175,10 @@ class FullModel(Section):
             ("Impulse of the road’s friction", float(history.road_impulse[-1])),
         ]
         rows.append(("Sum", sum(value for _, value in rows)))
-        whole = self.shown(truck.mass * self.case.inputs.speed, "impulse")
+        brought = truck.mass * self.case.inputs.speed
+        whole = self.shown(brought, "impulse")
+        # Of a body at rest nothing but round-off is left; the share is numerical.
+        rows = [(name, value if abs(value) > 1e-9 * brought else 0.0) for name, value in rows]
         return Table(
             label="tab-momentum",
             caption=(
