@@ -124,14 +124,16 @@ def _printed(blocks: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
 
 
 def _with_content(blocks: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
-    """Yield the blocks without subheadings that nothing stands below."""
+    """Yield the blocks without subheadings of annexes that nothing stands below."""
     waiting: dict[str, Any] | None = None
+    annex = False
     for block in blocks:
-        below = block.get("markdown", "").startswith("## ")
-        if waiting and not below and block["type"] != "Annex":
+        annex = annex or block["type"] == "Annex"
+        heading = annex and block.get("markdown", "").startswith("## ")
+        if waiting and not heading and block["type"] != "Annex":
             yield waiting
-        waiting = block if below else None
-        if not below:
+        waiting = block if heading else None
+        if not heading:
             yield block
 
 
