@@ -18,6 +18,7 @@ from pierimpact.collision.averages import largest_average_force
 from pierimpact.collision.groups import repeat, select, single
 from pierimpact.collision.parameters import Collision, Parameters, Spring
 from pierimpact.collision.simulate import simulate
+from pierimpact.design.sobol import BITS, sobol_points
 from pierimpact.design.study import Reactions, full_model
 from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.equivalent import EquivalentPier
@@ -278,14 +279,11 @@ def _spreads(
 
 def _factors(spreads: Mapping[str, Spread], size: int, seed: int) -> Array:
     """Return two independent samples of the factors, shape (2, parameters, size or more)."""
-    from scipy.stats.qmc import Sobol
-
     if not spreads:
         return np.empty((2, 0, size))
-    bits, laws = 30, list(spreads.values())
-    sobol = Sobol(2 * len(laws), bits=bits, rng=seed)
+    laws, power = list(spreads.values()), math.ceil(math.log2(size))
     # The middles of the points' cells are neither 0 nor 1.
-    points = sobol.random_base2(math.ceil(math.log2(size))).T + 0.5 ** (bits + 1)
+    points = sobol_points(2 * len(laws), power, seed) + 0.5 ** (BITS + 1)
     factors = [law.factor(row) for law, row in zip(laws + laws, points, strict=True)]
     return np.array(factors).reshape(2, len(laws), -1)
 
