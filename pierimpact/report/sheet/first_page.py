@@ -1,10 +1,6 @@
 """The first page: what the sheet comes to, how sure it is, and who answers for it."""
 
-from collections.abc import Iterator
-
-from pierimpact.design.codes import aashto_lrfd
 from pierimpact.plots.situation import draw_situation
-from pierimpact.report.calculation import AVERAGE
 from pierimpact.report.document.blocks import (
     Block,
     Contents,
@@ -16,15 +12,17 @@ from pierimpact.report.document.blocks import (
 )
 from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
+from pierimpact.report.outcome import (
+    DEMANDS,
+    METHODS,
+    first_results,
+    statement,
+    upper_share,
+    verdict,
+)
 from pierimpact.report.sheet.section import Section
 from pierimpact.report.warnings import warnings_of
-from pierimpact.symbols import BY_KEY
-from pierimpact.units import Printed, rounded
-
-#: The member forces that are checked, and what kind of quantity they are.
-DEMANDS = {"shear": "force", "moment": "moment"}
-#: The methods by which they are found, in words.
-METHODS = {"beam": "column as a beam", "static": "static reaction"}
+from pierimpact.units import rounded
 
 # As many as a reader takes in; the others stand with the limits: this project's choice.
 _FIRST_WARNINGS = 4
@@ -60,7 +58,7 @@ class FirstPage(Section):
         height = self.stated(struck.impact_height, "length")
         reaction = self.shown(result.design_force, "force")
         return Verdict(
-            statement=self._statement(),
+            statement=statement(result),
             stops=any(ratio > 1.0 for ratio in result.utilisations.values()),
             svg=draw_situation(
                 self.case.column,
@@ -71,95 +69,13 @@ class FirstPage(Section):
             ),
             alt=f"The column, {self.shown(self.case.column.height, 'length', given=True)} high, "
             f"its section and the truck, to scale. The reaction of {reaction} acts at {height}.",
-            results=list(self._results()),
-        )
-
-    def _statement(self) -> str:
-        """Return in a sentence whether the column holds, and how surely."""
-        result = self.calculation
-        ratios = result.utilisations
-        if not ratios:
-            shear, moment = self._largest()
-            return (
-                f"The column must resist a shear of {shear} and a moment of {moment}. The case "
-                "gives no resistance: nothing is checked against it."
-            )
-        missing = "".join(f" The {name} is not checked." for name in DEMANDS if name not in ratios)
-        failing = {name: ratio for name, ratio in ratios.items() if ratio > 1.0}
-        if failing:
-            return f"The column does not hold: utilisation {_listed(failing)}.{missing}"
-        holds = f"The column holds this truck: utilisation {_listed(ratios)}"
-        if self._upper is None:
-            return f"{holds}, if the truck is known exactly.{missing}"
-        at_upper = {name: ratio * self._upper for name, ratio in ratios.items()}
-        beyond = {name: ratio for name, ratio in at_upper.items() if ratio > 1.0}
-        if beyond:
-            return (
-                f"{holds}; but not every truck of its spread: {_listed(beyond)} at the upper end "
-                f"of the band.{missing}"
-            )
-        return f"{holds}; {_listed(at_upper)} at the upper end of the band.{missing}"
-
-    @property
-    def _upper(self) -> float | None:
-        """Upper end of the band over the design reaction; None where there is no band."""
-        band = self.calculation.band
-        return band.quantiles()[2] / self.calculation.design_force if band.spread else None
-
-    def _largest(self) -> list[Printed]:
-        return [
-            self.shown(self.calculation.demands[name].value, quantity)
-            for name, quantity in DEMANDS.items()
-        ]
-
-    def _results(self) -> Iterator[tuple[str, Printed, Inline]]:
-        """Yield the results beside the drawing: label, value and remark."""
-        result, pier = self.calculation, self.calculation.pier
-        height = self.stated(result.struck.impact_height, "length")
-        of_both = " (the larger of both heights)" if len(result.impacts) > 1 else ""
-        yield (
-            "Design reaction",
-            self.shown(result.design_force, "force"),
-            f"{result.governs} peak of the full model, at {height} above the ground{of_both}; by "
-            f"hand {self.shown(result.short.reaction, 'force')}, {rounded(result.ratio, 3)} times",
-        )
-        band = result.band
-        if band.spread:
-            low, _, high = (self.number(value, "force") for value in band.quantiles())
-            name, share = next(iter(band.influence.items()))
-            yield (
-                "Band, 5 to 95 %",
-                Printed(f"{low}–{high}", self.unit("force")),
-                "as the truck’s parameters vary within their spread; moved most by the "
-                f"{BY_KEY[name].meaning}, {band.spread[name].words}: "
-                f"{rounded(100.0 * share, 2)} % of the variance",
-            )
-        for (name, demand), shown in zip(result.demands.items(), self._largest(), strict=True):
-            of_static = (
-                ""
-                if demand.beam is None
-                else f"; static over beam {rounded(demand.ratio or 0.0, 3)}"
-            )
-            yield f"Largest {name}", shown, f"{METHODS[demand.method]}{of_static}"
-        average = result.average_forces[AVERAGE]
-        if average is not None:
-            code = aashto_lrfd(self.system)
-            yield (
-                f"Largest {self.shown(AVERAGE, 'time', given=True)} average",
-                self.shown(average.force, "force"),
-                f"of the contact force: {rounded(result.code_ratio or 0.0, 3)} times the "
-                f"{self.shown(code.along.value, 'force', given=True)} of {code.code}, which is "
-                "such an average",
-            )
-        yield (
-            "Pier frequency",
-            self.shown(pier.frequency, "frequency"),
-            f"{self.shown(pier.stiffness, 'stiffness')}, {self.shown(pier.mass, 'mass')}",
+            results=list(first_results(result)),
         )
 
     def utilisations(self) -> Block | None:
         """Return demand, resistance and utilisation by either method; None without resistance."""
         inputs, result = self.case.inputs, self.calculation
+        upper = upper_share(result)
         if not result.utilisations:
             return None
         rows: list[list[Inline]] = []
@@ -176,7 +92,7 @@ class FirstPage(Section):
                 rows.append([*cells, "not given", "", "", "not checked"])
                 continue
             ratio = demand.value / resistance
-            at_upper = None if self._upper is None else ratio * self._upper
+            at_upper = None if upper is None else ratio * upper
             rows.append(
                 [
                     *cells,
@@ -259,17 +175,3 @@ class FirstPage(Section):
     def contents(self) -> Block | None:
         """Return the list of contents; None where there are no annexes to look for."""
         return Contents() if self.case.inputs.annexes else None
-
-
-def verdict(ratio: float, at_upper: float | None) -> str:
-    """Return what a utilisation means, and that at the upper end of the band."""
-    if ratio > 1.0:
-        return "EXCEEDS the resistance"
-    if at_upper is not None and at_upper > 1.0:
-        return "within, but EXCEEDS at 95 %"
-    return "within the resistance"
-
-
-def _listed(ratios: dict[str, float]) -> str:
-    """Return utilisations as "0.71 in shear and 0.86 in moment"."""
-    return " and ".join(f"{rounded(ratio, 3)} in {name}" for name, ratio in ratios.items())

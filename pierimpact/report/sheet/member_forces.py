@@ -7,7 +7,7 @@ from pierimpact.report.calculation import Demand
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Inline, Tex
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal
-from pierimpact.report.sheet.first_page import DEMANDS
+from pierimpact.report.outcome import DEMANDS
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded

@@ -1,0 +1,125 @@
+"""What a case comes to in words: the verdict, and the results that stand first."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from pierimpact.design.codes import aashto_lrfd
+from pierimpact.report.calculation import AVERAGE, Calculation
+from pierimpact.symbols import BY_KEY
+from pierimpact.units import Printed, printed, rounded, stated, unit_of
+
+#: The member forces that are checked, and what kind of quantity they are.
+DEMANDS = {"shear": "force", "moment": "moment"}
+#: The methods by which they are found, in words.
+METHODS = {"beam": "column as a beam", "static": "static reaction"}
+
+
+class FirstResult(NamedTuple):
+    """A result as it stands beside the verdict."""
+
+    label: str
+    value: Printed
+    remark: str
+
+
+def statement(calculation: Calculation) -> str:
+    """Return in a sentence whether the column holds, and how surely."""
+    ratios, upper = calculation.utilisations, upper_share(calculation)
+    if not ratios:
+        shear, moment = _largest(calculation)
+        return (
+            f"The column must resist a shear of {shear} and a moment of {moment}. The case "
+            "gives no resistance: nothing is checked against it."
+        )
+    missing = "".join(f" The {name} is not checked." for name in DEMANDS if name not in ratios)
+    failing = {name: ratio for name, ratio in ratios.items() if ratio > 1.0}
+    if failing:
+        return f"The column does not hold: utilisation {_listed(failing)}.{missing}"
+    holds = f"The column holds this truck: utilisation {_listed(ratios)}"
+    if upper is None:
+        return f"{holds}, if the truck is known exactly.{missing}"
+    at_upper = {name: ratio * upper for name, ratio in ratios.items()}
+    beyond = {name: ratio for name, ratio in at_upper.items() if ratio > 1.0}
+    if beyond:
+        return (
+            f"{holds}; but not every truck of its spread: {_listed(beyond)} at the upper end "
+            f"of the band.{missing}"
+        )
+    return f"{holds}; {_listed(at_upper)} at the upper end of the band.{missing}"
+
+
+def upper_share(calculation: Calculation) -> float | None:
+    """Return the upper end of the band over the design reaction; None without a band [-]."""
+    band = calculation.band
+    return band.quantiles()[2] / calculation.design_force if band.spread else None
+
+
+def verdict(ratio: float, at_upper: float | None) -> str:
+    """Return what a utilisation means, and that at the upper end of the band."""
+    if ratio > 1.0:
+        return "EXCEEDS the resistance"
+    if at_upper is not None and at_upper > 1.0:
+        return "within, but EXCEEDS at 95 %"
+    return "within the resistance"
+
+
+def first_results(calculation: Calculation) -> Iterator[FirstResult]:
+    """Yield the results that stand beside the verdict."""
+    result, pier, system = calculation, calculation.pier, calculation.case.inputs.units
+
+    def shown(value: float, quantity: str, *, given: bool = False) -> Printed:
+        return printed(value, quantity, system, given=given)
+
+    height = stated(result.struck.impact_height, "length", system)
+    of_both = " (the larger of both heights)" if len(result.impacts) > 1 else ""
+    yield FirstResult(
+        "Design reaction",
+        shown(result.design_force, "force"),
+        f"{result.governs} peak of the full model, at {height} above the ground{of_both}; by "
+        f"hand {shown(result.short.reaction, 'force')}, {rounded(result.ratio, 3)} times",
+    )
+    band = result.band
+    if band.spread:
+        low, _, high = (shown(value, "force").number for value in band.quantiles())
+        name, share = next(iter(band.influence.items()))
+        yield FirstResult(
+            "Band, 5 to 95 %",
+            Printed(f"{low}–{high}", unit_of("force", system)),
+            "as the truck’s parameters vary within their spread; moved most by the "
+            f"{BY_KEY[name].meaning}, {band.spread[name].words}: "
+            f"{rounded(100.0 * share, 2)} % of the variance",
+        )
+    for (name, demand), value in zip(result.demands.items(), _largest(result), strict=True):
+        of_static = (
+            "" if demand.beam is None else f"; static over beam {rounded(demand.ratio or 0.0, 3)}"
+        )
+        yield FirstResult(f"Largest {name}", value, f"{METHODS[demand.method]}{of_static}")
+    average = result.average_forces[AVERAGE]
+    if average is not None:
+        code = aashto_lrfd(system)
+        yield FirstResult(
+            f"Largest {shown(AVERAGE, 'time', given=True)} average",
+            shown(average.force, "force"),
+            f"of the contact force: {rounded(result.code_ratio or 0.0, 3)} times the "
+            f"{shown(code.along.value, 'force', given=True)} of {code.code}, which is "
+            "such an average",
+        )
+    yield FirstResult(
+        "Pier frequency",
+        shown(pier.frequency, "frequency"),
+        f"{shown(pier.stiffness, 'stiffness')}, {shown(pier.mass, 'mass')}",
+    )
+
+
+def _largest(calculation: Calculation) -> list[Printed]:
+    """Return the largest shear and moment."""
+    system = calculation.case.inputs.units
+    return [
+        printed(calculation.demands[name].value, quantity, system)
+        for name, quantity in DEMANDS.items()
+    ]
+
+
+def _listed(ratios: dict[str, float]) -> str:
+    """Return utilisations as "0.71 in shear and 0.86 in moment"."""
+    return " and ".join(f"{rounded(ratio, 3)} in {name}" for name, ratio in ratios.items())
