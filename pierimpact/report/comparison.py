@@ -5,14 +5,13 @@ Values count as equal where they agree to nine figures, so that 1.2 m and 120 cm
 
 import math
 import re
-import textwrap
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
 from typing import Any, NamedTuple
 
 from pierimpact.files.case import Case
 from pierimpact.files.inputs import KEYS, Inputs, SectionInputs
+from pierimpact.plain_text import text_item, text_table
 from pierimpact.report.calculation import Calculation
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
@@ -82,7 +81,7 @@ class Comparison:
         }
         for heading, texts in lists.items():
             if texts:
-                parts.append("\n".join([heading, *map(_item, texts)]))
+                parts.append("\n".join([heading, *map(text_item, texts)]))
         return "\n\n".join(parts)
 
     def blocks(self) -> list[Block]:
@@ -316,21 +315,4 @@ def _table(heading: str, changes: Sequence[Change]) -> Block:
 def _table_in_text(heading: str, changes: Sequence[Change]) -> str:
     """Return changes as a table in plain text, long cells in several lines."""
     rows = [(heading, "before", "now", "change"), *((*c[:3], c.change) for c in changes)]
-    wrapped = [
-        [textwrap.wrap(cell, width) for cell, width in zip(row, _WIDEST, strict=True)]
-        for row in rows
-    ]
-    widths = [max(len(line) for row in wrapped for line in row[n] or [""]) for n in range(4)]
-    return "\n".join(
-        "  ".join(
-            line.rjust(width) if number == 3 else line.ljust(width)
-            for number, (line, width) in enumerate(zip(lines, widths, strict=True))
-        ).rstrip()
-        for row in wrapped
-        for lines in zip_longest(*row, fillvalue="")
-    )
-
-
-def _item(text: str) -> str:
-    """Return a text as an item of a list in plain text."""
-    return textwrap.fill(text, 100, initial_indent="- ", subsequent_indent="  ")
+    return text_table(rows, right=(3,), widest=_WIDEST)

@@ -11,6 +11,7 @@ from pierimpact.files.fitted import fitted_truck_file
 from pierimpact.files.records import RecordFile, read_record_file
 from pierimpact.files.trucks import read_truck_file
 from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.plain_text import text_table
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import printed
 
@@ -112,27 +113,13 @@ def _one_each(name: str, values: Sequence[T], count: int) -> Sequence[T]:
 
 def fit_table(fit: TruckFit) -> str:
     """Return a fit as a table in plain text: start, value, standard error, and what to know."""
-    rows = [("parameter", "start", "fitted", "standard error", "")]
-    for name, start, value, error, remark in fit_rows(fit):
-        rows.append((name, start, value, error, remark))
-    widths = [max(len(row[column]) for row in rows) for column in range(4)]
-    lines = [
-        "  ".join(
-            (
-                row[0].ljust(widths[0]),
-                *(row[column].rjust(widths[column]) for column in (1, 2, 3)),
-                row[4],
-            )
-        ).rstrip()
-        for row in rows
-    ]
+    rows = [("parameter", "start", "fitted", "standard error", ""), *fit_rows(fit)]
     residual = fit.residual
-    lines.append("")
-    lines.append(
+    return (
+        f"{text_table(rows, right=(1, 2, 3))}\n\n"
         f"Residual: {printed(residual.rms, 'force', 'SI')} root mean square, "
         f"{100.0 * residual.share:.1f} % of the largest force."
     )
-    return "\n".join(lines)
 
 
 def fit_rows(fit: TruckFit) -> list[tuple[str, str, str, str, str]]:
