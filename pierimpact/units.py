@@ -55,9 +55,8 @@ DIMENSIONS = {
     "momentum": Dimension("N*s", "a momentum", "kN*s, kg*m/s"),
 }
 
-_NUMBER = re.compile(
-    r"\s*([-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|(?:nan|inf)\b))\s*(.*?)\s*", re.ASCII
-)
+_DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_NUMBER = re.compile(rf"\s*([-+]?(?:{_DIGITS}|(?:nan|inf)\b))\s*(.*?)\s*", re.ASCII)
 _FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?[1-9])?"
 _EXPRESSION = re.compile(rf"{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
 _MARKS = str.maketrans({"·": "*", "²": "^2", "³": "^3", "⁴": "^4", "⁶": "^6"})
@@ -180,6 +179,35 @@ def _mixed(text: str) -> float:
 def _dimensions(dimension: str) -> dict[str, float] | None:
     unit = _unit(DIMENSIONS[dimension].si)
     return unit[1] if unit else None
+
+
+def pattern(dimension: str) -> str:
+    """Return a regular expression, as JSON Schema has them, for how a quantity is typed.
+
+    It matches all that `parse` takes, no unit that is none, and no single unit of another
+    dimension; of several units it does not see the dimension.
+
+    Parameters
+    ----------
+    dimension : str
+        What the quantity is, one of `DIMENSIONS`.
+    """
+    definitions = [part.split("=") for part in re.split(r"[;\n]", _DEFINITIONS) if part.strip()]
+    names = [name.strip() for first, _, *others in definitions for name in (first, *others)]
+    fitting = [name for name in names if (_unit(name) or (0.0, None))[1] == _dimensions(dimension)]
+    some, one = "|".join(names), "|".join(fitting)
+    power = r"(?:(?:\^|\*\*)?-?[1-9]|[²³⁴⁶])"
+    factor = rf"(?:{some})s?{power}?"
+    units = [
+        *([rf"(?:{one})s?"] if fitting else []),
+        rf"(?:{some})s?{power}",
+        rf"{factor}(?:\s*[*/· ]\s*{factor}){{1,5}}",
+    ]
+    ways = [rf"[-+]?{_DIGITS}\s*(?:{'|'.join(units)})"]
+    if dimension == "length":
+        mixed = _FEET_AND_INCHES.pattern.replace(r"\"", '["″”]').replace("'", "['′’]")
+        ways.append(rf"(?=.*\d){mixed}")
+    return rf"^\s*(?:{'|'.join(ways)})\s*$"
 
 
 class Quantity(NamedTuple):

@@ -12,6 +12,7 @@ from PIL import Image
 from pypdf import PdfReader
 
 from pierimpact import EquivalentPier, cli, load_truck
+from pierimpact.cli.fit import pier_of, piers_of
 from pierimpact.collision.records import Record
 from pierimpact.design.fit import fit_records, parameter, with_parameters
 from pierimpact.files.trucks import read_truck_file
@@ -154,8 +155,8 @@ def test_a_bad_record_is_one_line_and_code_2(tmp_path, capsys):
 
 def test_a_case_file_gives_the_pier():
     case = NOTEBOOKS / "tti-column.yaml"
-    (pier,) = cli._piers(
-        cli._parser().parse_args(["fit", "r.csv", "--speed", "1 m/s", "--case", str(case)])
+    (pier,) = piers_of(
+        cli.parser().parse_args(["fit", "r.csv", "--speed", "1 m/s", "--case", str(case)])
     )
     from pierimpact.files.case import read_case_file
 
@@ -168,7 +169,7 @@ def test_a_slow_pier_of_a_case_is_fitted_without_a_warning_of_member_forces(tmp_
     case = tmp_path / "slow.yaml"
     text = (NOTEBOOKS / "tti-column.yaml").read_text("utf-8")
     case.write_text(text.replace("column_height: 5.0 m", "column_height: 15.0 m"), "utf-8")
-    assert cli._pier_of(str(case)).frequency < 55.0
+    assert pier_of(case).frequency < 55.0
 
 
 # The figure and the notebook.

@@ -13,13 +13,16 @@ from pierimpact.symbols import BY_KEY, dimension
 from pierimpact.units import parse
 
 
-def _named(convert: Callable[[str, Any], Any]) -> BeforeValidator:
-    """Return a validator that knows the key of its value, so that errors can name it."""
+def _named(convert: Callable[[str, Any], Any], typed: Any) -> BeforeValidator:
+    """Return a validator that knows the key of its value, so that errors can name it.
+
+    What a file has in its place is of the type `typed`.
+    """
 
     def validate(value: Any, info: ValidationInfo) -> Any:
         return convert(str(info.field_name), value)
 
-    return BeforeValidator(validate)
+    return BeforeValidator(validate, json_schema_input_type=typed)
 
 
 def _length(name: str, value: Any) -> float:
@@ -99,10 +102,10 @@ def _date(name: str, value: Any) -> datetime.date:
         raise InputError(f"{name} must be a date such as 2026-01-31, got {brief(value)}") from None
 
 
-Text = Annotated[str, _named(_text)]
-Date = Annotated[datetime.date, _named(_date)]
-Positive = Annotated[float, _named(_positive)]
-Factor = Annotated[float, _named(_factor)]
+Text = Annotated[str, _named(_text, str)]
+Date = Annotated[datetime.date, _named(_date, datetime.date)]
+Positive = Annotated[float, _named(_positive, str)]
+Factor = Annotated[float, _named(_factor, Annotated[float, Field(gt=0.0)])]
 #: The annexes of the sheet, in its order.
 ANNEXES = (
     *("pier", "procedure", "truck", "codes", "sensitivity"),
@@ -144,7 +147,7 @@ class SectionInputs(BaseModel):
 class StepInputs(SectionInputs):
     """The keys of a change of the cross-section."""
 
-    height: Annotated[float, _named(_length)]
+    height: Annotated[float, _named(_length, str)]
 
 
 class RevisionInputs(BaseModel):
@@ -188,6 +191,9 @@ def _revisions(name: str, value: Any) -> tuple[RevisionInputs, ...]:
     return revisions
 
 
+_REVISIONS = Annotated[list[RevisionInputs], Field(max_length=_MOST_REVISIONS)]
+
+
 class SharedInputs(BaseModel):
     """The keys that the cases of an office may share."""
 
@@ -212,7 +218,9 @@ class Inputs(SharedInputs, SectionInputs):
     column_height: Positive
     elastic_modulus: Positive | None = None
     concrete_strength: Positive | None = None
-    poisson_ratio: Annotated[float, _named(_poisson_ratio)] = POISSON_RATIO
+    poisson_ratio: Annotated[
+        float, _named(_poisson_ratio, Annotated[float, Field(ge=0.0, le=0.5)])  # exactly
+    ] = POISSON_RATIO
     density: Positive
     stiffness_factor: Factor | None = None
     effective_stiffness: Positive | None = None
@@ -224,21 +232,23 @@ class Inputs(SharedInputs, SectionInputs):
     top_rotation_stiffness: Positive | None = None
     top_mass: Positive | None = None
     embedment: Positive | None = None
-    steps: Annotated[tuple[StepInputs, ...], _named(_steps)] = ()
+    steps: Annotated[tuple[StepInputs, ...], _named(_steps, list[StepInputs])] = ()
     truck: Text
     truck_mass: Positive | None = None
     speed: Positive
-    impact_height: Annotated[float | Literal["auto"], _named(_impact_height)]
-    damping_ratio: Annotated[float, _named(_damping_ratio)] = DAMPING_RATIO
+    impact_height: Annotated[float | Literal["auto"], _named(_impact_height, str)]
+    damping_ratio: Annotated[
+        float, _named(_damping_ratio, Annotated[float, Field(ge=0.0, lt=1.0)])
+    ] = DAMPING_RATIO
     shear_resistance: Positive | None = None
     moment_resistance: Positive | None = None
     member_forces: Literal["larger", "beam", "static"] = "larger"
-    assumed: Annotated[dict[str, str], _named(_texts_by_key)] = {}
-    sources: Annotated[dict[str, str], _named(_texts_by_key)] = {}
-    notes: Annotated[tuple[str, ...], _named(_texts)] = ()
-    revisions: Annotated[tuple[RevisionInputs, ...], _named(_revisions)] = ()
+    assumed: Annotated[dict[str, str], _named(_texts_by_key, dict[str, str])] = {}
+    sources: Annotated[dict[str, str], _named(_texts_by_key, dict[str, str])] = {}
+    notes: Annotated[tuple[str, ...], _named(_texts, list[str])] = ()
+    revisions: Annotated[tuple[RevisionInputs, ...], _named(_revisions, _REVISIONS)] = ()
     supersedes: Text | None = None
-    annexes: Annotated[tuple[str, ...], _named(_annexes)] = ()
+    annexes: Annotated[tuple[str, ...], _named(_annexes, list[str])] = ()
 
 
 KEYS = tuple(Inputs.model_fields)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from tqdm import tqdm
 
 from pierimpact.checks import InputError
+from pierimpact.files.find import find_case_files
 from pierimpact.report.summary import Row, summary_blocks, summary_csv
 from pierimpact.report.write import (
     OutputError,
@@ -25,7 +26,6 @@ from pierimpact.report.write import (
     write_report,
 )
 
-ENDINGS = (".yaml", ".yml")
 SUMMARY = "summary"  # name of the files of the summary, without ending
 BINDER = "binder"  # name of the file of all sheets in one, without ending
 
@@ -62,13 +62,12 @@ class Batch(NamedTuple):
 
 
 def find_cases(paths: Iterable[str | Path], *, binder: bool = False) -> list[Path]:
-    """Return the case files at the given paths, each once.
+    """Return the case files at the given paths, as `find_case_files`, for a report of each.
 
     Parameters
     ----------
     paths : iterable of str or Path
-        Case files, and folders, which stand for the *.yaml and *.yml in them, sorted by name;
-        subfolders are left alone.
+        Case files and folders.
     binder : bool, optional
         Whether the cases will be bound, so that none may be called as the binder is.
 
@@ -77,21 +76,9 @@ def find_cases(paths: Iterable[str | Path], *, binder: bool = False) -> list[Pat
     InputError
         When there is no case in a folder, or two cases would write the same files.
     """
-    found: dict[tuple[str, str], Path] = {}
-    for path in map(Path, paths):
-        try:
-            files = sorted(path.iterdir())
-        except OSError:  # no folder; whether it is a good file is seen when it is read
-            cases = [path]
-        else:
-            cases = [file for file in files if file.suffix.lower() in ENDINGS]
-            cases = [file for file in cases if not file.name.startswith(".")]
-            if not cases:
-                raise InputError(f"{path}: no case in this folder, no *.yaml and no *.yml")
-        for case in cases:
-            found.setdefault((case.name, os.path.realpath(case)), case)
-    _refuse_same_names(list(found.values()), binder)
-    return list(found.values())
+    cases = find_case_files(paths)
+    _refuse_same_names(cases, binder)
+    return cases
 
 
 def write_reports(

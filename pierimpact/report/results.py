@@ -46,6 +46,7 @@ class Results(BaseModel):
     engine_peak: float
     cargo_peak: float | None
     design_reaction: float
+    hand_reaction: float  #: by the spectrum method, short level, the check by hand
     #: Reactions below which 5 and 95 % of trucks stay; None where no parameter carries a spread.
     band: tuple[float, float] | None
     governs: str
@@ -81,6 +82,7 @@ class Results(BaseModel):
             "engine_peak": history.engine_peak.reaction,
             "cargo_peak": None if cargo is None else cargo.reaction,
             "design_reaction": calculation.design_force,
+            "hand_reaction": calculation.short.reaction,
             "band": (float(low), float(high)) if calculation.band.spread else None,
             "governs": calculation.governs,
             "largest_shear": shear.value,

@@ -1,0 +1,103 @@
+"""What the keys of a case file mean, in words, for the template and for the schema."""
+
+from typing import get_args
+
+from pydantic import BaseModel
+
+from pierimpact.files.inputs import Inputs
+from pierimpact.files.plausible import USUAL, USUAL_MODULI
+from pierimpact.symbols import BY_KEY, dimension
+from pierimpact.units import DIMENSIONS, Printed, rounded, unit_of, unit_size
+
+# The meanings of keys that stand for no quantity, and of some that say more than the table of
+# symbols does.
+_WORDS = {
+    "office": "name of the office",
+    "logo": "image file of the office’s logo (PNG, JPEG or SVG), from the folder of this file",
+    "project": "project",
+    "prepared_by": "who prepared the calculation",
+    "checked_by": "who checked it",
+    "approved_by": "who approved it",
+    "units": "units that the sheet prints in, whatever its values are given in",
+    "job_number": "job number, in quotes if it is a number",
+    "element": "part of the structure",
+    "revision": "revision, in quotes if it is a number",
+    "date": "date; that of the calculation is today’s if left out",
+    "column_shape": "shape of the column’s section",
+    "base": "what holds the base of the column",
+    "top": "what holds its top",
+    "steps": "changes of the section, from the base upward: the height of each and its section",
+    "height": "height above the base from which the section is another",
+    "truck": "truck of the catalogue, or a truck file of your own (.toml)",
+    "member_forces": "member forces that are checked: the larger of both methods, those of the "
+    "column as a beam, or those of the static reaction",
+    "assumed": "keys whose values no source gives, each with the reason for its value",
+    "sources": "where the values of keys are from",
+    "notes": "notes of your own, printed with the inputs",
+    "revisions": "table of revisions on the first page",
+    "description": "what changed",
+    "by": "who made the revision",
+    "supersedes": "case file of the revision before, from the folder of this file",
+    "annexes": "annexes of the sheet: all, or a list of them",
+}
+# What the meanings in the table of symbols leave unsaid.
+_MORE = {
+    "concrete_strength": "or else elastic_modulus",
+    "elastic_modulus": "in place of concrete_strength",
+    "stiffness_factor": "or else effective_stiffness",
+    "effective_stiffness": "in place of stiffness_factor",
+    "impact_height": "or auto: both heights of the rule, the larger reaction governs",
+    "truck_mass": "if it is not that of the truck file",
+    "shear_resistance": "without it shear is not checked",
+    "moment_resistance": "without it moment is not checked",
+}
+
+
+def explanation(key: str, model: type[BaseModel] = Inputs) -> str:
+    """Return in a line what a key means, what its value may be, and what it is if left out.
+
+    Parameters
+    ----------
+    key : str
+        Name of a field of the model.
+    model : type, optional
+        The inputs, or those of a step or of a revision.
+    """
+    field, kind = model.model_fields[key], quantity_of(key)
+    choices = [str(choice) for choice in get_args(field.annotation) if isinstance(choice, str)]
+    default = str(field.default) if isinstance(field.default, str | float) else ""
+    notes = [
+        ", ".join(choices) if key not in _MORE else "",
+        DIMENSIONS[kind].units if kind else "",
+        f"{default} if left out" if default.strip("—") else "",
+    ]
+    words = BY_KEY[key].meaning if key in BY_KEY and key not in _WORDS else _WORDS[key]
+    in_brackets = "; ".join(filter(None, notes))
+    more = f"; {_MORE[key]}" if key in _MORE else ""
+    return f"{words} ({in_brackets}){more}" if in_brackets else f"{words}{more}"
+
+
+def quantity_of(key: str) -> str:
+    """Return the dimension of a key's value, of `units.DIMENSIONS`; "" for a number or a word."""
+    return "length" if key == "height" else dimension(BY_KEY[key]) if key in BY_KEY else ""
+
+
+def usual_for(key: str, system: str) -> str:
+    """Return what is usual for a key's value, such as "2.0 to 30 m"; "" where nothing is known.
+
+    Parameters
+    ----------
+    key : str
+        Key of a case file.
+    system : {"SI", "US"}
+        Units to print in.
+    """
+    ranges = [USUAL[key]] if key in USUAL else []
+    if key == "elastic_modulus":
+        ranges = list(USUAL_MODULI.values())
+    return " or ".join(
+        str(Printed(f"{least} to {most}", unit_of(BY_KEY[key].quantity, system)))
+        for ends in ranges
+        for size in [unit_size(BY_KEY[key].quantity, system)]
+        for least, most in [(rounded(end / size, 2) for end in ends)]
+    )
