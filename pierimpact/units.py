@@ -195,14 +195,15 @@ def pattern(dimension: str) -> str:
     definitions = [part.split("=") for part in re.split(r"[;\n]", _DEFINITIONS) if part.strip()]
     names = [name.strip() for first, _, *others in definitions for name in (first, *others)]
     fitting = [name for name in names if (_unit(name) or (0.0, None))[1] == _dimensions(dimension)]
-    some, one = "|".join(names), "|".join(fitting)
+    some, one = (
+        "|".join(name if f"{name}s" in names else f"{name}s?" for name in those)  # ms is no plural
+        for those in (names, fitting)
+    )
     power = r"(?:(?:\^|\*\*)?-?[1-9]|[²³⁴⁶])"
-    factor = rf"(?:{some})s?{power}?"
-    units = [
-        *([rf"(?:{one})s?"] if fitting else []),
-        rf"(?:{some})s?{power}",
-        rf"{factor}(?:\s*[*/· ]\s*{factor}){{1,5}}",
-    ]
+    factor = rf"(?:{some}){power}?"
+    units = [rf"(?:{some}){power}", rf"{factor}(?:\s*[*/· ]\s*{factor}){{1,5}}"]
+    if fitting:
+        units.insert(0, one)
     ways = [rf"[-+]?{_DIGITS}\s*(?:{'|'.join(units)})"]
     if dimension == "length":
         mixed = _FEET_AND_INCHES.pattern.replace(r"\"", '["″”]').replace("'", "['′’]")
