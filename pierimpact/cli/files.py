@@ -17,8 +17,8 @@ Where case.schema.json is in the same folder, the first line names it for editor
 _TRUCKS = "List the trucks of the catalogue, or the parameters of one truck with their sources."
 _SCHEMA = """\
 Print the JSON Schema of case files, with which an editor completes and checks them as they are
-typed: pierimpact schema > case.schema.json, and in the first line of the case file
-# yaml-language-server: $schema=case.schema.json
+typed: pierimpact schema > case.schema.json, and "# yaml-language-server: $schema=case.schema.json"
+as the first line of a case file beside it, which `pierimpact new` writes by itself.
 """
 _EXIT_CODES = "Exit code: 0; 2 if the input is bad."
 
