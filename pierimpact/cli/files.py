@@ -16,9 +16,15 @@ Where case.schema.json is in the same folder, the first line names it for editor
 """
 _TRUCKS = "List the trucks of the catalogue, or the parameters of one truck with their sources."
 _SCHEMA = """\
-Print the JSON Schema of case files, with which an editor completes and checks them as they are
-typed: pierimpact schema > case.schema.json, and "# yaml-language-server: $schema=case.schema.json"
-as the first line of a case file beside it, which `pierimpact new` writes by itself.
+Print the JSON Schema of case files, with which an editor completes and checks
+them as they are typed:
+
+  pierimpact schema > case.schema.json
+
+and, as the first line of a case file beside it, which `pierimpact new` writes
+by itself:
+
+  # yaml-language-server: $schema=case.schema.json
 """
 _EXIT_CODES = "Exit code: 0; 2 if the input is bad."
 
@@ -59,7 +65,10 @@ def add_trucks(commands: Any) -> None:
 def add_schema(commands: Any) -> None:
     """Add the command `schema` to the parser's."""
     schema = commands.add_parser(
-        "schema", help="print the JSON Schema of case files", description=_SCHEMA
+        "schema",
+        help="print the JSON Schema of case files",
+        description=_SCHEMA,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     schema.set_defaults(run=_schema)
 
