@@ -115,6 +115,7 @@ def test_results_are_those_of_the_calculations(calculated):
         "Engine peak": lambda each: each.history.engine_peak.reaction,
         "Cargo peak": lambda each: each.history.cargo_peak.reaction,
         "Design reaction": lambda each: each.design_force,
+        "Reaction by hand": lambda each: each.short.reaction,
         "Largest shear": lambda each: abs(static(each).largest_shear.value),
         "Largest moment": lambda each: abs(static(each).largest_moment.value),
         "25 ms average over AASHTO LRFD": lambda each: each.average_forces[0.025].force,

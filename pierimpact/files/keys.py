@@ -67,11 +67,11 @@ def explanation(key: str, model: type[BaseModel] = Inputs) -> str:
     choices = [str(choice) for choice in get_args(field.annotation) if isinstance(choice, str)]
     default = str(field.default) if isinstance(field.default, str | float) else ""
     notes = [
-        ", ".join(choices) if key not in _MORE else "",
+        ", ".join(choices),
         DIMENSIONS[kind].units if kind else "",
         f"{default} if left out" if default.strip("—") else "",
     ]
-    words = BY_KEY[key].meaning if key in BY_KEY and key not in _WORDS else _WORDS[key]
+    words = _WORDS[key] if key in _WORDS else BY_KEY[key].meaning
     in_brackets = "; ".join(filter(None, notes))
     more = f"; {_MORE[key]}" if key in _MORE else ""
     return f"{words} ({in_brackets}){more}" if in_brackets else f"{words}{more}"
@@ -79,7 +79,9 @@ def explanation(key: str, model: type[BaseModel] = Inputs) -> str:
 
 def quantity_of(key: str) -> str:
     """Return the dimension of a key's value, of `units.DIMENSIONS`; "" for a number or a word."""
-    return "length" if key == "height" else dimension(BY_KEY[key]) if key in BY_KEY else ""
+    if key == "height":  # of a step
+        return "length"
+    return dimension(BY_KEY[key]) if key in BY_KEY else ""
 
 
 def usual_for(key: str, system: str) -> str:

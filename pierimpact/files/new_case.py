@@ -67,6 +67,11 @@ Check
 # shear_resistance | 8 MN | 1800 kip
 # moment_resistance | 7 MN*m | 5000 kip*ft
 # member_forces | larger
+
+Where the values are from
+# notes | [A note of your own]
+# sources | {speed: posted limit}
+assumed |
 """
 # Dimensions of sections by key and, where it is another for a shape, by shape and key.
 _DIMENSIONS = {
@@ -139,16 +144,10 @@ def new_case(
             elif "|" in row:
                 key, *values = (cell.strip() for cell in row.split("|"))
                 yield _line(key, values[min(which, len(values) - 1)])
-                used.append(key)
+                used.append(key)  # with its mark, if it has one
             else:
                 yield f"# {row}" if row else ""
-        yield "\n# Where the values are from"
-        yield _line("# sources", "{speed: posted limit}")
-        yield _line("assumed", "")
-        yield from (
-            f"  {key}: {_ASSUMED}" for key in used if key in PHYSICAL_KEYS
-        )  # none with a mark
-        yield _line("# notes", "[A note of your own]")
+        yield from (f"  {key}: {_ASSUMED}" for key in used if key in PHYSICAL_KEYS)
 
     return "\n".join(lines()).lstrip() + "\n"
 

@@ -289,6 +289,7 @@ def _results(results: Results) -> dict[Hashable, _Value]:
         _Value("Cargo peak", results.cargo_peak, "force"),
         _Value("Peak that governs", results.governs),
         _Value("Design reaction", results.design_reaction, "force"),
+        _Value("Reaction by hand", results.hand_reaction, "force"),
         _Value("Reaction that 5 % of trucks stay below", low, "force"),
         _Value("Reaction that 95 % of trucks stay below", high, "force"),
         _Value("Largest shear", results.largest_shear, "force", (results.shear_method,)),
