@@ -1,3 +1,4 @@
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -93,3 +94,17 @@ def test_interrupted(monkeypatch, capsys):
     monkeypatch.setattr("pierimpact.report.batch.write_report", interrupt)
     assert cli.main(["report", "a.yaml"]) == 130
     assert capsys.readouterr().err == "pierimpact: interrupted, 0 of 1 reports written\n"
+
+
+def test_output_that_nobody_reads_is_no_failure_to_tell():
+    read, write = os.pipe()
+    os.close(read)
+    done = subprocess.run(
+        [sys.executable, "-m", "pierimpact", "trucks"],
+        cwd=Path(pierimpact.__file__).parent.parent,
+        stdout=write,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+    )
+    os.close(write)
+    assert (done.returncode, done.stderr) == (1, "")

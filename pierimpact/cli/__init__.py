@@ -1,6 +1,8 @@
 """The command line: a file for each group of commands."""
 
 import argparse
+import os
+import sys
 from collections.abc import Sequence
 
 import pierimpact
@@ -14,12 +16,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser().parse_args(arguments)
     try:
         code: int = options.run(options)
+        sys.stdout.flush()
     except InputError as error:
         complain(error)
         return 2
     except KeyboardInterrupt as interrupt:
         complain(f"interrupted, {interrupt or 'nothing written'}")
         return 130
+    except BrokenPipeError:  # whoever reads the output, such as head, has enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
     return code
 
 

@@ -132,18 +132,16 @@ def _check(options: argparse.Namespace) -> int:
     codes, between = {0}, ""
     for path in find_case_files(options.cases):
         try:
-            calculation = _calculated(path)
-            if options.json:
-                print(check_json(str(path), calculation))
-            else:
-                print(between + check_text(str(path), calculation))
-                between = "\n"
+            text = (check_json if options.json else check_text)(str(path), _calculated(path))
         except InputError as error:
             complain(error)
             codes.add(2)
         except Exception as error:  # the other cases are still calculated
             complain(f"{path}: {type(error).__name__}: {error}")
             codes.add(1)
+        else:
+            print(between + text, flush=True)
+            between = "" if options.json else "\n"
     return 1 if 1 in codes else max(codes)
 
 
