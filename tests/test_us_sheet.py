@@ -4,13 +4,13 @@ import math
 import re
 
 import pytest
-from pierimpact.report.sheet.summary import limits_of_the_study
 from sheet_page import US_CASE
 
 from pierimpact.certainty import Certainty
 from pierimpact.design.codes import aashto_lrfd, aashto_lrfd_former, code_forces
 from pierimpact.files.case import case_from
 from pierimpact.report.sheet import Sheet
+from pierimpact.report.warnings import limits_of_the_study
 
 PSI = 0.45359237 * 9.80665 / 0.0254**2
 
@@ -61,8 +61,8 @@ def test_the_forces_of_a_code_in_kip_are_given_so_on_a_sheet_in_si_units():
 
 def test_heights_of_the_rule_are_in_metres_as_well(sheet):
     words = str(sheet.pier.impact_height())
-    assert "3.44 ft (1.05 m) without cargo peak" in words
-    assert "else 4.43 ft (1.35 m)" in words
+    assert "at 3.44 ft (1.05 m) and" in words
+    assert "at 4.43 ft (1.35 m)" in words
 
 
 def test_the_modulus_of_concrete_is_by_the_formula_in_psi(sheet):
@@ -78,7 +78,7 @@ def test_the_modulus_of_concrete_is_by_the_formula_in_psi(sheet):
 
 
 def test_limits_of_the_study_are_no_figures_to_build_on(sheet):
-    for clause in limits_of_the_study(sheet.calculation.design.outside, False, "US"):
+    for clause in limits_of_the_study(sheet.calculation.short.outside, False, "US"):
         low, high = re.search(
             r"outside the studied ([\d.\u202f]+) to ([\d.\u202f]+)", clause
         ).groups()

@@ -47,6 +47,7 @@ _INSTEAD = {  # of what pandoc writes: equations start at the left, and drawings
 }
 _PAPER = {"a4": (11906, 16838), "us-letter": (12240, 15840)}  # twentieths of a point
 _SIDES = 1247 + 1134  # margins, as in the template of the page
+_INCH = 2.54  # exactly [cm]
 _DOTS = 200  # of a drawing, an inch; this project's choice
 _LETTERS = 105  # of a table's type on a line across the page; a width by eye, this project's choice
 _NO_OPERAND = "\\text{\u2003}"  # before an equals sign: LibreOffice wants something there
@@ -91,8 +92,8 @@ class SheetWordExporter(SheetHTMLExporter):
             dots = int.from_bytes(picture[16:20])  # the width, in the head of a PNG
             part |= {
                 "png": f"drawing-{number}.png",
-                "width": round(2.54 * dots / _DOTS, 3),
-                "most": round(2.54 / 1440 * (sheet["size"][0] - _SIDES), 3),
+                "width": round(_INCH * dots / _DOTS, 3),
+                "most": round(_INCH / 1440 * (sheet["size"][0] - _SIDES), 3),
             }
         sheet["pictures"] = {part["png"]: data for part, data in zip(drawn, pictures, strict=True)}
         return sheet
