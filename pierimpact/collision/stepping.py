@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.collision.coasting import coast
+from pierimpact.collision.coasting import coast, period
 from pierimpact.collision.groups import CHUNK, join, select
 from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import (
@@ -46,7 +46,6 @@ from pierimpact.collision.series import (
     Ops,
     Real,
     Terms,
-    terms_needed,
 )
 from pierimpact.collision.yielding import (
     HARDLY,
@@ -62,8 +61,9 @@ PIER_EXTREME = 8  # of its displacement: an event, but not a change of regime
 
 # Numerical settings.
 TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative to its scale
+INACTIVE = -math.inf  # level of a quantity that ends no regime
 HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
-STEPS = 100_000  # limit; no collision of the studied domain takes a hundredth of it
+STEPS = 20_000  # limit; no collision of the studied domain takes a hundredth of it
 
 Rates: TypeAlias = tuple[Real, Real, Real]  # value, first and second rate
 Series: TypeAlias = tuple[Terms, Terms, Terms]  # of δ1, δ2 and x_p
@@ -128,7 +128,9 @@ def event_functions(
         (ENGINE, parameters.engine, state.engine),
         (BODY, parameters.body, state.body),
     ):
-        first, per_length = 3 * which, 1.0 / spring.plateau_length
+        # A plateau may be much shorter than what the steep part gives.
+        scale = where(line.largest > spring.plateau_length, line.largest, spring.plateau_length)
+        first, per_length = 3 * which, 1.0 / scale
         loading = line.regime >= PLATEAU
         if some(line.upper < NO_BOUND):
             level = -line.upper * per_length - TOLERANCE
@@ -137,14 +139,14 @@ def event_functions(
             level = line.lower * per_length - TOLERANCE
             functions.append(EventFunction(first + LOWER, 0, ((-per_length, which),), level))
         if some(loading):
-            level = where(loading, -TOLERANCE, -NO_BOUND)
+            level = where(loading, -TOLERANCE, INACTIVE)
             functions.append(EventFunction(first + TURN, 1, ((-per_speed, which),), level))
 
     # Sliding ends where the relative velocity would reverse.
     acts = parameters.friction_force > 0.0
     slides = acts & (state.slip != 0.0)
     if some(slides):
-        level, back = where(slides, -TOLERANCE, -NO_BOUND), -state.slip * per_speed
+        level, back = where(slides, -TOLERANCE, INACTIVE), -state.slip * per_speed
         parts = ((back, BODY), (where(parameters.on_pier, 0.0, back), PIER))
         functions.append(EventFunction(FORWARD, 1, parts, level))
 
@@ -160,7 +162,7 @@ def event_functions(
             (state.stuck & negate(parameters.on_pier), 0, slope, BODY),
             (state.stuck & parameters.on_pier, 2, inertia, PIER),
         ):
-            level = where(acts & stuck, -HOLDING_WEIGHT - TOLERANCE, -NO_BOUND)
+            level = where(acts & stuck, -HOLDING_WEIGHT - TOLERANCE, INACTIVE)
             functions.append(EventFunction(FORWARD, order, ((-weight, which),), level - force))
             functions.append(EventFunction(BACKWARD, order, ((weight, which),), level + force))
 
@@ -170,11 +172,11 @@ def event_functions(
         elastic, yields = direction == 0.0, direction != 0.0
         if some(elastic):
             per_limit = where(elastic, 1.0 / state.yielding.limit, 0.0)
-            level = where(elastic, -1.0 - TOLERANCE, -NO_BOUND)
+            level = where(elastic, -1.0 - TOLERANCE, INACTIVE)
             functions.append(EventFunction(YIELDS_FORWARD, 0, ((per_limit, PIER),), level))
             functions.append(EventFunction(YIELDS_BACKWARD, 0, ((-per_limit, PIER),), level))
         if some(yields):
-            level, back = where(yields, -TOLERANCE, -NO_BOUND), -direction * per_speed
+            level, back = where(yields, -TOLERANCE, INACTIVE), -direction * per_speed
             functions.append(EventFunction(YIELDING_ENDS, 1, ((back, PIER),), level))
     return functions
 
@@ -269,7 +271,7 @@ def advance(
     initial = rates(motion, state.position)
     longest = longest_step(motion, ops)
     h = trial_step(longest, initial, functions, ops)
-    series = expand(motion, initial, h, terms_needed(ops.largest(h / longest)), ops)
+    series = expand(motion, initial, h, ops.terms(h / longest), ops)
     flagged = may_rise(functions, series, state.peak(ops), h, ops, state.yielding)
     state, event, theta = first_event(flagged, series, state, h, ops)
     length, position = theta * h, evaluate(series, h, theta, ops)
@@ -351,8 +353,9 @@ def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
     energy = 0.5 * (stiffness * elastic**2 + mass * state.position.vp**2)
     decided, left = prospects(parameters, state, energy, ops)
     vibrating_mass = mass + ops.where(parameters.on_pier, parameters.body.mass, 0.0)
-    period = 2.0 * math.pi * ops.lib.sqrt(vibrating_mass / stiffness)
-    left = left & (state.time > state.last_change + period)
+    sigma = 0.5 * parameters.pier_damping * ops.lib.sqrt(1.0 / (mass * vibrating_mass))
+    swing = period(stiffness / vibrating_mass, sigma, ops)
+    left = left & (state.time > state.last_change + swing)
     if yielding is not None:
         elastic = yielding.direction == 0.0
         decided, left = decided & elastic, left & (elastic | held(parameters, state, yielding))
