@@ -6,6 +6,7 @@ friction past its regime ends at the instant of the change, found on the series 
 """
 
 import math
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
@@ -64,6 +65,7 @@ TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative
 INACTIVE = -math.inf  # level of a quantity that ends no regime
 HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
 STEPS = 20_000  # limit; no collision of the studied domain takes a hundredth of it
+SHOWN = 10  # indices in a warning
 
 Rates: TypeAlias = tuple[Real, Real, Real]  # value, first and second rate
 Series: TypeAlias = tuple[Terms, Terms, Terms]  # of δ1, δ2 and x_p
@@ -398,11 +400,18 @@ def propagate(
         record(new, motion, h)
         if state.time >= duration and finished(parameters, state, FLOATS):
             return state
-    raise RuntimeError("the collision did not come to an end")
+    raise RuntimeError(f"the collision did not come to an end in {STEPS:,} steps")
+
+
+class UnfinishedWarning(UserWarning):
+    """Collisions did not come to an end; their results are nan."""
 
 
 class Outcomes(NamedTuple):
-    """Peaks of R/k_p with their times, times of the first contacts, and yielding, by collision."""
+    """Peaks of R/k_p with their times, times of the first contacts, and yielding, by collision.
+
+    All are nan where a collision did not come to an end.
+    """
 
     engine_peak: NDArray[np.float64]
     cargo_peak: NDArray[np.float64]
@@ -447,7 +456,7 @@ class Running(NamedTuple):
 
 def propagate_all(
     chunks: Iterable[Parameters],
-    size: int,
+    shape: tuple[int, ...],
     initial_state: Callable[[Parameters, Ops], State] = start,
     progress: Callable[[int], object] = lambda count: None,
 ) -> Outcomes:
@@ -459,18 +468,21 @@ def propagate_all(
     Parameters
     ----------
     chunks : iterable of Parameters
-        Some collisions at a time, in all as many as `size`.
+        Some collisions at a time, in all as many as the `shape` has places.
+    shape : tuple of int
+        Shape of the outcomes.
     initial_state : callable, optional
         From collisions to the states they start from; first touch unless another is given.
     progress : callable, optional
         Called with the number of collisions done since the last call.
 
-    Raises
-    ------
-    RuntimeError
-        When a collision does not come to an end.
+    Warns
+    -----
+    UnfinishedWarning
+        When a collision does not come to an end; the others do not suffer.
     """
-    outcomes = np.empty((len(Outcomes._fields), size))
+    outcomes = np.full((len(Outcomes._fields), math.prod(shape)), math.nan)
+    unfinished: list[int] = []
     waiting = _running(chunks, initial_state)
     running = next(waiting, None)
     while running and len(running.column):
@@ -481,17 +493,32 @@ def propagate_all(
             motion = linear_motion(parameters, state, ARRAYS)
             state, _h = coast(parameters, state, motion, ARRAYS)
             state, _h = advance(parameters, state, motion, ARRAYS)
-            done |= finished(parameters, state, ARRAYS)
             steps = steps + 1
-            if steps.max() > STEPS:
-                raise RuntimeError("a collision did not come to an end")
-        outcomes[:, column[done]] = select(outcomes_of(state), done)
+            ends = finished(parameters, state, ARRAYS) & ~done
+            if ends.any():  # what comes later depends on when it is removed
+                outcomes[:, column[ends]] = select(outcomes_of(state), ends)
+                done |= ends
+            if steps.max() >= STEPS:
+                endless = (steps >= STEPS) & ~done
+                unfinished += column[endless].tolist()
+                done |= endless
         progress(int(np.count_nonzero(done)))
         running = select(Running(parameters, state, column, steps), ~done)
         if 2 * len(running.column) < CHUNK:
             more = next(waiting, None)
             running = join(running, more) if more else running
-    return Outcomes(*outcomes)
+    if unfinished:
+        warnings.warn(_of_unfinished(unfinished, shape), UnfinishedWarning, stacklevel=3)
+    return Outcomes(*outcomes.reshape(-1, *shape))
+
+
+def _of_unfinished(columns: list[int], shape: tuple[int, ...]) -> str:
+    places = [np.unravel_index(column, shape) for column in sorted(columns)]
+    named = [", ".join(map(str, place)) for place in places]
+    named = [f"({place})" if len(shape) > 1 else place for place in named]
+    more = f" and {len(named) - SHOWN} more" if len(named) > SHOWN else ""
+    where = f"at index {', '.join(named[:SHOWN])}{more} " if shape else ""
+    return f"collision {where}did not come to an end in {STEPS:,} steps: its results are nan"
 
 
 def _running(

@@ -82,8 +82,9 @@ def exact_amplification(
         pier_damping=damping_coefficient(pier_mass, pier_stiffness, zeta),
         speed=one,
     )
-    peak = propagate_all(in_chunks(parameters), len(beta), _at_contact).engine_peak
-    return np.reshape(pier_stiffness * peak, arrays[0].shape)
+    shape = arrays[0].shape
+    peak = propagate_all(in_chunks(parameters), shape, _at_contact).engine_peak
+    return np.asarray(pier_stiffness.reshape(shape) * peak)
 
 
 def _at_contact(parameters: Parameters, ops: Ops) -> State:

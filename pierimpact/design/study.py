@@ -60,7 +60,7 @@ class Reactions(NamedTuple):
 
 def full_model(parameters: Parameters) -> Reactions:
     """Return the peak reactions by the full model."""
-    peaks = propagate_all(in_chunks(parameters), len(parameters.speed))
+    peaks = propagate_all(in_chunks(parameters), parameters.speed.shape)
     engine = parameters.pier_stiffness * peaks.engine_peak
     cargo = parameters.pier_stiffness * peaks.cargo_peak
     return Reactions(engine, cargo, np.fmax(engine, cargo))
