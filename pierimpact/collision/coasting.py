@@ -172,6 +172,7 @@ def time_without_change(
         square = v * v + 2.0 * a * gap
         arrives = (v > 0.0) & (square >= 0.0)
         root = lib.sqrt(where(arrives, square, 0.0))
+        arrives = arrives & ((v + root) * NO_BOUND > 2.0 * gap)
         arrival = where(arrives, 2.0 * gap / where(arrives, v + root, 1.0), NO_BOUND)
         arrival = where(gap > 0.0, arrival, 0.0)
         # Loading goes on while the body is faster than the pier can be.
@@ -233,9 +234,7 @@ def coast(
     vibration = free_vibration(motion, state.position, ops)
     bound = time_without_change(parameters, state, motion, vibration, ops)
     # Where nothing ever changes, one period brings the highest peak; numerical: 1 % to spare.
-    h = where(
-        bound < NO_BOUND, SAFETY * bound, 1.01 * period(motion.b, vibration.sigma, ops)
-    )
+    h = where(bound < NO_BOUND, SAFETY * bound, 1.01 * period(motion.b, vibration.sigma, ops))
     worthwhile = constant & (h * ops.lib.sqrt(motion.b) > PHASE)
     if yielding is not None:
         farthest = abs(vibration.static) + vibration.reach(ops)

@@ -196,13 +196,17 @@ def linear_motion(parameters: Parameters, state: State, ops: Ops) -> LinearMotio
     )
     if state.yielding is None:
         return motion
-    direction, yields = state.yielding.direction, state.yielding.direction != 0.0
-    # Numerical, so that round-off stays small: ten times as long as it takes to crush the truck.
-    length = parameters.engine.plateau_length + parameters.body.plateau_length
-    rate = 0.1 * parameters.speed / length
+    direction, limit = state.yielding.direction, state.yielding.limit
+    yields = direction != 0.0
+    # Numerical, so that round-off stays small: ten times as long as it takes to crush the truck, or
+    # to stop it.
+    engine, body, resistance = parameters.engine, parameters.body, limit * parameters.pier_stiffness
+    length = engine.plateau_length + body.plateau_length
+    to_stop = (engine.mass + body.mass + parameters.pier_mass) * parameters.speed / resistance
+    rate = 1.0 / (10.0 * length / parameters.speed + to_stop)
     return motion._replace(
         b=where(yields, 0.0, b),
-        pier_force=motion.pier_force - direction * state.yielding.limit * parameters.pier_stiffness,
+        pier_force=motion.pier_force - direction * resistance,
         pace=where(yields, rate * rate, b),
     )
 

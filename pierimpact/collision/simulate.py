@@ -12,8 +12,8 @@ from pierimpact.collision.beam import ModalMotion, propagate_beam
 from pierimpact.collision.beam_history import BeamCollisionHistory
 from pierimpact.collision.history import CollisionHistory, RecordedStep
 from pierimpact.collision.parameters import Collision, parameter_chunks
+from pierimpact.collision.propagation import propagate, propagate_all
 from pierimpact.collision.regimes import LinearMotion, State
-from pierimpact.collision.stepping import propagate, propagate_all
 from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck

@@ -23,9 +23,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, positive_array, ratio_array
 from pierimpact.collision.parameters import Parameters, Spring, in_chunks
+from pierimpact.collision.propagation import propagate_all
 from pierimpact.collision.regimes import FREE, STEEP, Position, State, branch, start
 from pierimpact.collision.series import Ops
-from pierimpact.collision.stepping import propagate_all
 from pierimpact.pier.equivalent import damping_coefficient
 
 # Numerical: distance of the absent body from the pier, in units of v_i √(m_i/k_i).

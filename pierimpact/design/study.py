@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.groups import select, single
 from pierimpact.collision.parameters import Collision, Parameters, Spring, in_chunks
+from pierimpact.collision.propagation import propagate, propagate_all
 from pierimpact.collision.regimes import STEEP, LinearMotion, State
-from pierimpact.collision.stepping import propagate, propagate_all
 from pierimpact.design import domain, procedure
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reduction import exact_amplification
