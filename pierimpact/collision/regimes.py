@@ -61,7 +61,7 @@ class State(NamedTuple):
     body: Branch
     slip: Real  # direction of sliding: 1, −1, or 0 while it sticks or does not act
     stuck: Flag
-    last_change: Real  # time of the last change of regime
+    last_change: Real  # time of the last change of regime, but for the spring of a body at rest
     engine_contact: Real  # time of the first contact; nan before it
     cargo_contact: Real
     engine_peak: Real  # largest R/k_p before cargo contact
@@ -267,13 +267,17 @@ def change_regime(
         yielding, xp = yielding.after(event, xp, ops)
     meets_engine = (engine.regime == STEEP) & (state.engine_contact != state.engine_contact)
     meets_cargo = (body.regime == STEEP) & (state.cargo_contact != state.cargo_contact)
+    # Against a body that rests on the road the pier swings no farther each time.
+    matters = changes & ops.negate(
+        state.stuck & stuck & ops.negate(parameters.on_pier) & (event >= 3) & (event < FORWARD)
+    )
     return state._replace(
         position=position._replace(u2=u2, xp=xp),
         engine=engine,
         body=body,
         slip=slip,
         stuck=stuck,
-        last_change=where(changes, time, state.last_change),
+        last_change=where(matters, time, state.last_change),
         engine_contact=where(meets_engine, time, state.engine_contact),
         cargo_contact=where(meets_cargo, time, state.cargo_contact),
         cargo_peak=where(meets_cargo, state.elastic_displacement(ops), state.cargo_peak),

@@ -18,7 +18,14 @@ from numpy.typing import NDArray
 from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import LinearMotion, Position, State, accelerations, raise_peak
 from pierimpact.collision.series import FLOATS, PHASE, TERMS, EventFunction, weights_of_one
-from pierimpact.collision.stepping import PIER, Rates, event_functions, longest_step, trial_step
+from pierimpact.collision.stepping import (
+    INACTIVE,
+    PIER,
+    Rates,
+    event_functions,
+    longest_step,
+    trial_step,
+)
 
 Matrix: TypeAlias = NDArray[Any]
 
@@ -70,6 +77,8 @@ class Parts(NamedTuple):
         series = [terms.tolist() for terms in self.slow.T[0::2]]
         flagged = []
         for event, order, parts, level in functions:
+            if level == INACTIVE:
+                continue
             parts = tuple((weight / self.length**order, which) for weight, which in parts)
             if level + sum(weight * series[which][order] for weight, which in parts) > 0.0:
                 return 0.0

@@ -285,23 +285,28 @@ def prospects(
     pier.
     """
     where = ops.where
-    engine, body, on_pier = parameters.engine, parameters.body, parameters.on_pier
+    engine, body = parameters.engine, parameters.body
     d1, u1, d2, u2, _, vp = state.position
     v1, v2 = u1 + vp, u2 + vp
     energy = pier_energy + where(v1 > 0.0, 0.5 * engine.mass * v1**2, 0.0)
-    energy = energy + where((v2 > 0.0) | on_pier, 0.5 * body.mass * v2**2, 0.0)
+    drags = parameters.on_pier & (parameters.friction_force > 0.0)
+    energy = energy + where((v2 > 0.0) | drags, 0.5 * body.mass * v2**2, 0.0)
+    F1 = state.engine.intercept + state.engine.slope * d1
+    F2 = state.body.intercept + state.body.slope * d2
+    energy = energy + 0.5 * F1**2 / engine.unloading_stiffness
+    in_all = energy = energy + 0.5 * F2**2 / body.unloading_stiffness
+    if state.yielding is not None:
+        energy = energy - kept_by_spring(parameters, state, F2, state.yielding, ops)
     no_contact: Flag = True
     for spring, line, d, contact in (
         (engine, state.engine, d1, state.engine_contact),
         (body, state.body, d2, state.cargo_contact),
     ):
-        force = line.intercept + line.slope * d
-        if state.yielding is not None and spring is body:
-            energy = energy - kept_by_spring(parameters, state, force, state.yielding, ops)
-        energy = energy + 0.5 * force**2 / spring.unloading_stiffness
         crushed = where(d > line.largest, d, line.largest)
-        needed = spring.plateau_force * (spring.plateau_length - crushed)
-        no_contact = no_contact & ((contact == contact) | (needed > energy))
+        # The plateau's work, and what the spring holds at its end.
+        held = 0.5 * spring.plateau_force**2 / spring.unloading_stiffness
+        needed = held + spring.plateau_force * (spring.plateau_length - crushed)
+        no_contact = no_contact & ((contact == contact) | (needed > in_all))
     peak = state.peak(ops)
     peak = where(peak > 0.0, peak, 0.0)
     no_peak = 2.0 * energy <= parameters.pier_stiffness * peak**2 * (1.0 + 1e-9)
