@@ -7,7 +7,7 @@ stays in one regime for long is looked at by itself (`ringing`).
 import math
 import warnings
 from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,15 +21,18 @@ from pierimpact.collision.series import ARRAYS, FLOATS, Ops
 from pierimpact.collision.stepping import advance, finished
 
 # Numerical settings.
-STEPS = 20_000  # limit; no collision of the studied domain takes a hundredth of it
+STEPS = 10_000  # limit; no collision of the studied domain takes a hundredth of it
+TOGETHER = 2_000  # of them side by side; one that takes more goes on alone
 SHOWN = 10  # indices in a warning
 PATIENCE = 16  # steps in one regime before it is looked at by itself, each time
+
+Record: TypeAlias = Callable[[State, LinearMotion, float], None]
 
 
 def propagate(
     parameters: Parameters,
     duration: float = 0.0,
-    record: Callable[[State, LinearMotion, float], None] = lambda state, motion, h: None,
+    record: Record = lambda state, motion, h: None,
 ) -> State:
     """Return the last state of one collision, in which nothing more can happen.
 
@@ -41,8 +44,25 @@ def propagate(
     RuntimeError
         When the collision does not come to an end.
     """
-    state, since = start(parameters, FLOATS), 0
-    for _ in range(STEPS):
+    end = _follow(parameters, start(parameters, FLOATS), STEPS, duration, record)
+    if end is None:
+        raise RuntimeError(f"the collision did not come to an end in {STEPS:,} steps")
+    return end
+
+
+def _follow(
+    parameters: Parameters,
+    state: State,
+    steps: int,
+    duration: float = 0.0,
+    record: Record = lambda state, motion, h: None,
+) -> State | None:
+    """Return the last state of one collision that is now in a state; None if so many are too few.
+
+    Duration and record as in `propagate`.
+    """
+    since = 0
+    for _ in range(steps):
         motion = linear_motion(parameters, state, FLOATS)
         since = 0 if state.last_change == state.time else since + 1
         if since and since % PATIENCE == 0:
@@ -55,7 +75,7 @@ def propagate(
         record(new, motion, h)
         if state.time >= duration and finished(parameters, state, FLOATS):
             return state
-    raise RuntimeError(f"the collision did not come to an end in {STEPS:,} steps")
+    return None
 
 
 class UnfinishedWarning(UserWarning):
@@ -79,12 +99,12 @@ class Outcomes(NamedTuple):
     path: NDArray[np.float64]
 
 
-def outcomes_of(state: State) -> Outcomes:
+def outcomes_of(state: State, ops: Ops) -> Outcomes:
     """Return what the states of collisions hold of their outcomes."""
     yielding = state.yielding
     largest = displacement = path = 0.0 * state.time
     if yielding is not None:
-        more = yielding.beyond(state.position.xp, ARRAYS)
+        more = yielding.beyond(state.position.xp, ops)
         largest = yielding.largest
         displacement, path = yielding.displacement + more, yielding.path + abs(more)
     return Outcomes(
@@ -156,12 +176,16 @@ def propagate_all(
             steps = steps + 1
             ends = finished(parameters, state, ARRAYS) & ~done
             if ends.any():  # what comes later depends on when it is removed
-                outcomes[:, column[ends]] = select(outcomes_of(state), ends)
+                outcomes[:, column[ends]] = select(outcomes_of(state, ARRAYS), ends)
                 done |= ends
-            if steps.max() >= STEPS:
-                endless = (steps >= STEPS) & ~done
-                unfinished += column[endless].tolist()
-                done |= endless
+            late = np.flatnonzero((steps >= min(TOGETHER, STEPS)) & ~done)
+            for i in late.tolist():
+                end = _follow(single(parameters, i), single(state, i), STEPS - TOGETHER)
+                if end is None:
+                    unfinished.append(int(column[i]))
+                else:
+                    outcomes[:, column[i]] = outcomes_of(end, FLOATS)
+            done[late] = True
         progress(int(np.count_nonzero(done)))
         running = select(Running(parameters, state, column, steps, since), ~done)
         if 2 * len(running.column) < CHUNK:

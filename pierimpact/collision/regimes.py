@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from pierimpact.collision.parameters import Parameters, Spring
 from pierimpact.collision.series import Flag, Ops, Real
-from pierimpact.collision.yielding import Yielding
+from pierimpact.collision.yielding import YIELDING_ENDS, Yielding
 
 FREE, ELASTIC, PLATEAU, STEEP = range(4)
 
@@ -262,9 +262,17 @@ def change_regime(
     engine = next_branch(parameters.engine, state.engine, event, position.d1, ops)
     body = next_branch(parameters.body, state.body, event - 3, position.d2, ops)
     slip, stuck, u2 = update_friction(parameters, motion, resistance, state, body, event, ops)
-    yielding, xp = state.yielding, position.xp
+    yielding, position = state.yielding, position._replace(u2=u2)
     if yielding is not None:
-        yielding, xp = yielding.after(event, xp, ops)
+        yielding, xp = yielding.after(event, position.xp, ops)
+        # At rest to the last digit, or an undamped pier would yield a little more each time.
+        vp = where(event == YIELDING_ENDS, position.vp, 0.0)
+        position = position._replace(
+            u1=position.u1 + vp,
+            u2=position.u2 + where(stuck & parameters.on_pier, 0.0, vp),
+            xp=xp,
+            vp=position.vp - vp,
+        )
     meets_engine = (engine.regime == STEEP) & (state.engine_contact != state.engine_contact)
     meets_cargo = (body.regime == STEEP) & (state.cargo_contact != state.cargo_contact)
     # Against a body that rests on the road the pier swings no farther each time.
@@ -272,7 +280,7 @@ def change_regime(
         state.stuck & stuck & ops.negate(parameters.on_pier) & (event >= 3) & (event < FORWARD)
     )
     return state._replace(
-        position=position._replace(u2=u2, xp=xp),
+        position=position,
         engine=engine,
         body=body,
         slip=slip,

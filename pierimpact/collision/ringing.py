@@ -33,7 +33,7 @@ Matrix: TypeAlias = NDArray[Any]
 GAP = 10.0  # least ratio of the slowest fast eigenvalue to the fastest slow one
 CONDITION = 1e10  # of the fast eigenvectors, beyond which the parts are not told apart
 WORTHWHILE = 8.0  # ordinary steps that a long one must replace
-LONGEST = 1e9  # such steps that a long one may replace
+LONGEST = 1e7  # such steps that a long one may replace
 SAFETY = 0.999  # share of the time to the earliest change
 PASSES = 20  # an event here: a quantity passes a value
 
@@ -83,7 +83,7 @@ class Parts(NamedTuple):
             if level + sum(weight * series[which][order] for weight, which in parts) > 0.0:
                 return 0.0
             flagged.append((EventFunction(event, order, parts, level), True))
-        return min([1.0, *(fraction for _, fraction, _ in FLOATS.rises(flagged, series))])
+        return min([1.0, *(float(fraction) for _, fraction, _ in FLOATS.rises(flagged, series))])
 
     def bounded(self, functions: Sequence[EventFunction]) -> list[EventFunction]:
         """Return functions of the slow part that are above zero where the whole may make them."""
@@ -118,7 +118,7 @@ def parts_of(motion: LinearMotion, position: Position) -> Iterator[Parts]:
         # The fast part vibrates about where the constant forces hold it.
         amplitudes = rows @ z + (rows @ constant) / fast
         slowly = matrix - ((vectors * fast) @ rows).real
-        length = min(PHASE / max(sizes[count - 1], 1e-300), LONGEST * PHASE / sizes[count])
+        length = min(PHASE / max(sizes[count - 1], 1e-300), LONGEST * PHASE / sizes[-1])
         terms = np.empty((TERMS, 6))
         terms[0] = z - (vectors @ amplitudes).real
         rate = matrix @ terms[0] + constant

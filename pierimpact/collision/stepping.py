@@ -104,7 +104,7 @@ def longest_step(motion: LinearMotion, ops: Ops) -> Real:
     """Return the step in which no mode of the regime turns by more than PHASE."""
     slope1, slope2, c = motion.slope1, motion.slope2, motion.c
     g1, g2 = motion.inverse_m1 * slope1, motion.inverse_m2 * slope2
-    square = motion.pace + motion.inverse_mp * (slope1 + slope2)
+    square = motion.pace + motion.inverse_mp * (slope1 + motion.gamma * slope2)
     return PHASE / ops.lib.sqrt(square + ops.where(g1 > g2, g1, g2) + c * c)
 
 
