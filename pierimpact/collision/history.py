@@ -32,6 +32,7 @@ Array: TypeAlias = NDArray[np.float64]
 # No mode advances by more than three radians in a piece: the chord between two of these samples
 # misses a maximum by less than 0.2 % of the amplitude.
 FRACTIONS = np.linspace(0.0, 1.0, 25)
+MOST_PIECES = 100_000  # numerical: with their samples they fill a gigabyte
 
 
 def hermite(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
@@ -358,6 +359,11 @@ class CollisionHistory:
         pieces: list[RecordedStep] = []
         for state, motion, length in self.steps:
             count = max(1, math.ceil(length / longest_step(motion, FLOATS) - 1e-9))
+            if len(pieces) + count > MOST_PIECES:
+                raise RuntimeError(
+                    f"the pier vibrates too often for a history: more than {MOST_PIECES:,} pieces; "
+                    "peaks and contact times are known all the same"
+                )
             positions = _positions(state.position, motion, length / count, count)
             for number, position in enumerate(positions):
                 later = state._replace(time=state.time + number * length / count, position=position)

@@ -167,7 +167,10 @@ def event_functions(
             functions.append(EventFunction(YIELDS_FORWARD, 0, ((per_limit, PIER),), level))
             functions.append(EventFunction(YIELDS_BACKWARD, 0, ((-per_limit, PIER),), level))
         if some(yields):
-            level, back = where(yields, -TOLERANCE, INACTIVE), -direction * per_speed
+            # The truck's momentum gives a heavy pier no more than a share of its speed.
+            truck = parameters.engine.mass + parameters.body.mass
+            back = -direction * per_speed * (1.0 + parameters.pier_mass / truck)
+            level = where(yields, -TOLERANCE, INACTIVE)
             functions.append(EventFunction(YIELDING_ENDS, 1, ((back, PIER),), level))
     return functions
 
