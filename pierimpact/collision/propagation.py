@@ -193,7 +193,7 @@ def propagate_all(
             running = join(running, more) if more else running
     if unfinished:
         warnings.warn(_of_unfinished(unfinished, shape), UnfinishedWarning, stacklevel=3)
-    return Outcomes(*outcomes.reshape(-1, *shape))
+    return Outcomes(*outcomes.reshape(len(outcomes), *shape))
 
 
 def _of_unfinished(columns: list[int], shape: tuple[int, ...]) -> str:
