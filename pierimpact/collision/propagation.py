@@ -24,7 +24,7 @@ from pierimpact.collision.stepping import advance, finished
 STEPS = 10_000  # limit; no collision of the studied domain takes a hundredth of it
 TOGETHER = 2_000  # of them side by side; one that takes more goes on alone
 SHOWN = 10  # indices in a warning
-PATIENCE = 16  # steps in one regime before it is looked at by itself, each time
+PATIENCE, AGAIN = 48, 16  # steps in one regime before it is looked at by itself, and again
 
 Record: TypeAlias = Callable[[State, LinearMotion, float], None]
 
@@ -65,7 +65,7 @@ def _follow(
     for _ in range(steps):
         motion = linear_motion(parameters, state, FLOATS)
         since = 0 if state.last_change == state.time else since + 1
-        if since and since % PATIENCE == 0:
+        if since >= PATIENCE and since % AGAIN == 0:
             new, h = ring(parameters, state, motion)
             record(state, motion, h)
             state = new
@@ -169,7 +169,7 @@ def propagate_all(
             motion = linear_motion(parameters, state, ARRAYS)
             since = np.where(state.last_change == state.time, 0, since + 1)
             if since.max() >= PATIENCE:
-                patient = np.flatnonzero((since > 0) & (since % PATIENCE == 0) & ~done)
+                patient = np.flatnonzero((since >= PATIENCE) & (since % AGAIN == 0) & ~done)
                 state = _ring(parameters, state, motion, patient)
             state, _h = coast(parameters, state, motion, ARRAYS)
             state, _h = advance(parameters, state, motion, ARRAYS)

@@ -24,6 +24,7 @@ from pierimpact.collision.stepping import (
     Rates,
     event_functions,
     longest_step,
+    swing,
     trial_step,
 )
 
@@ -141,6 +142,8 @@ def time_ahead(parameters: Parameters, state: State, motion: LinearMotion, parts
             functions += parts.bounded([EventFunction(PASSES, 0, below, -moved - largest)])
     parts = parts.over(trial_step(parts.length, parts.rates(), functions, FLOATS))
     stop = parts.first(functions)
+    if stop == 1.0:  # nothing in sight
+        parts = parts.over(min(parts.length, 1.01 * swing(parameters, FLOATS)))
     if yielding is not None and yielding.direction != 0.0:  # it goes one way
         return parts.over(SAFETY * stop * parts.length)
     rises = parts.first(parts.bounded([EventFunction(PASSES, 0, above, -top)]))

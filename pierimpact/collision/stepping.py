@@ -351,14 +351,19 @@ def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
     elastic = state.elastic_displacement(ops)
     energy = 0.5 * (stiffness * elastic**2 + mass * state.position.vp**2)
     decided, left = prospects(parameters, state, energy, ops)
-    vibrating_mass = mass + ops.where(parameters.on_pier, parameters.body.mass, 0.0)
-    sigma = 0.5 * parameters.pier_damping * ops.lib.sqrt(1.0 / (mass * vibrating_mass))
-    swing = period(stiffness / vibrating_mass, sigma, ops)
-    left = left & (state.time > state.last_change + swing)
+    left = left & (state.time > state.last_change + swing(parameters, ops))
     if yielding is not None:
         elastic = yielding.direction == 0.0
         decided, left = decided & elastic, left & (elastic | held(parameters, state, yielding))
     return decided | left
+
+
+def swing(parameters: Parameters, ops: Ops) -> Real:
+    """Return how long the pier swings until nothing new comes, a body that sticks to it or not."""
+    mass = parameters.pier_mass
+    moving = mass + ops.where(parameters.on_pier, parameters.body.mass, 0.0)
+    sigma = 0.5 * parameters.pier_damping * ops.lib.sqrt(1.0 / (mass * moving))
+    return period(parameters.pier_stiffness / moving, sigma, ops)
 
 
 def held(parameters: Parameters, state: State, yielding: Yielding) -> Flag:
