@@ -10,7 +10,7 @@ from reference import solve
 from wide_collisions import wide_collisions
 
 from pierimpact import CrushSpring, EquivalentPier, Truck, load_truck, peak_reactions, simulate
-from pierimpact.collision import propagation
+from pierimpact.collision import history, propagation
 from pierimpact.collision.propagation import UnfinishedWarning
 from pierimpact.collision.series import FLOATS
 from pierimpact.collision.simulate import PeakReactions
@@ -126,12 +126,13 @@ def test_one_that_does_not_end_is_named_and_spares_the_others(monkeypatch):
         simulate(*cases[first])
 
 
-def test_a_history_of_too_many_cycles_says_so():
+def test_a_history_of_too_many_cycles_says_so(monkeypatch):
+    monkeypatch.setattr(history, "MOST_PIECES", 50)
     pier = EquivalentPier.from_frequency(mass=1e5, frequency=3e3, damping_ratio=0.0)
-    history = simulate(TRUCK, pier, speed=5.0, duration=100.0)
-    assert history.governing_peak.reaction > 0.0
+    found = simulate(TRUCK, pier, speed=5.0)
+    assert found.governing_peak.reaction > 0.0
     with pytest.raises(RuntimeError, match=r"^the pier vibrates too often for a history"):
-        _ = history.reaction
+        _ = found.reaction
 
 
 # Against the independent solution, at corners.

@@ -23,6 +23,7 @@ from pierimpact.collision.stepping import advance, finished
 # Numerical settings.
 STEPS = 10_000  # limit; no collision of the studied domain takes a hundredth of it
 TOGETHER = 2_000  # of them side by side; one that takes more goes on alone
+LONGER = 100_000  # as many more where a longer history is asked for
 SHOWN = 10  # indices in a warning
 PATIENCE, AGAIN = 48, 16  # steps in one regime before it is looked at by itself, and again
 
@@ -61,8 +62,8 @@ def _follow(
 
     Duration and record as in `propagate`.
     """
-    since = 0
-    for _ in range(steps):
+    since, ended = 0, False
+    for step in range(steps + LONGER):
         motion = linear_motion(parameters, state, FLOATS)
         since = 0 if state.last_change == state.time else since + 1
         if since >= PATIENCE and since % AGAIN == 0:
@@ -73,8 +74,11 @@ def _follow(
         record(state, motion, h)
         state, h = advance(parameters, new, motion, FLOATS)
         record(new, motion, h)
-        if state.time >= duration and finished(parameters, state, FLOATS):
+        ended = finished(parameters, state, FLOATS)
+        if ended and state.time >= duration:
             return state
+        if not ended and step >= steps - 1:
+            return None
     return None
 
 
