@@ -143,6 +143,7 @@ def time_ahead(parameters: Parameters, state: State, motion: LinearMotion, parts
     parts = parts.over(trial_step(parts.length, parts.rates(), functions, FLOATS))
     stop = parts.first(functions)
     if stop == 1.0:  # nothing in sight
+        # Numerical: a period, and 1 % to spare.
         parts = parts.over(min(parts.length, 1.01 * swing(parameters, FLOATS)))
     if yielding is not None and yielding.direction != 0.0:  # it goes one way
         return parts.over(SAFETY * stop * parts.length)
