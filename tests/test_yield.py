@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from reference import solve
 
 from pierimpact import EquivalentPier, InputError, load_truck, peak_reactions, simulate
-from pierimpact.collision import stepping
+from pierimpact.collision import propagation
 
 TRUCK = load_truck("single-unit-8t")
 
@@ -289,7 +289,7 @@ def held_by_friction(size, seed):
 
 def test_the_steps_are_few(monkeypatch):
     """Also where a body at rest pushes the pier ever more slowly, or an engine comes slowly."""
-    monkeypatch.setattr(stepping, "STEPS", 600)
+    monkeypatch.setattr(propagation, "STEPS", 600)
     assert (together(held_by_friction(200, seed=80))["ductility"] > 1.0).sum() > 150
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.collision.parameters import Collision
+from pierimpact.collision.propagation import STEPS
 from pierimpact.collision.regimes import (
     NO_EVENT,
     LinearMotion,
@@ -29,7 +30,6 @@ from pierimpact.collision.regimes import (
 )
 from pierimpact.collision.series import ARRAYS, FLOATS, TERMS, weights_of_one
 from pierimpact.collision.stepping import (
-    STEPS,
     event_functions,
     first_event,
     longest_step,

@@ -23,8 +23,17 @@ from pierimpact.collision.regimes import (
 from pierimpact.collision.series import PHASE, Flag, Ops, Real
 from pierimpact.collision.yielding import HARDLY, ROUND_OFF, Yielding
 
-# Numerical: share of the time to the earliest change, which round-off must not pass.
-SAFETY = 0.999
+# Numerical: share of the time to the earliest change, which round-off must not pass; and the time
+# in which a vibration dies out, in units of 1/σ.
+SAFETY, DIES_OUT = 0.999, 40.0
+# Numerical: (ω/ω_0)² of a vibration that round-off cannot tell from a critically damped one.
+LEAST_SQUARE = 1e-16
+
+
+def period(b: Real, sigma: Real, ops: Ops) -> Real:
+    """Return the period of a vibration x'' = −b x − 2 σ x', or the time in which it dies out."""
+    square, least = b - sigma * sigma, (2.0 * math.pi / DIES_OUT * sigma) ** 2
+    return 2.0 * math.pi / ops.lib.sqrt(ops.where(square > least, square, least))
 
 
 class FreeVibration(NamedTuple):
@@ -51,25 +60,36 @@ class FreeVibration(NamedTuple):
 
     def reach(self, ops: Ops) -> Real:
         """Return a bound, whatever the phase, of the distance from the static displacement."""
-        return ops.lib.hypot(self.y, self.q)
+        return self._bound(self.y, self.q, ops)
 
     def fastest(self, ops: Ops) -> Real:
         """Return a bound, whatever the phase, of the speed."""
-        return ops.lib.hypot(self.v, self.s)
+        return self._bound(self.v, self.s, ops)
+
+    def _bound(self, cosine: Real, sine: Real, ops: Ops) -> Real:
+        """Return a bound of exp(−σ t) (cosine cos ω t + sine sin ω t), also where ω is small.
+
+        For |sin ω t| is at most ω t, and t exp(−σ t) at most 1/(e σ).
+        """
+        rate = ops.where(math.e * self.sigma > self.omega, math.e * self.sigma, self.omega)
+        near_critical = abs(cosine) + abs(sine) * self.omega / rate
+        any_phase = ops.lib.hypot(cosine, sine)
+        return ops.where(near_critical < any_phase, near_critical, any_phase)
 
     def first_maximum(self, ops: Ops) -> Real:
         """Return the time of the first maximum; no later one is higher."""
-        return (0.5 * math.pi - ops.lib.atan2(self.s, self.v)) % (2.0 * math.pi) / self.omega
+        return ops.lib.atan2(self.v, self.s) % (2.0 * math.pi) / self.omega
 
     def first_minimum(self, ops: Ops) -> Real:
         """Return the time of the first minimum; no later one is lower."""
-        return (1.5 * math.pi - ops.lib.atan2(self.s, self.v)) % (2.0 * math.pi) / self.omega
+        return ops.lib.atan2(-self.v, -self.s) % (2.0 * math.pi) / self.omega
 
 
 def free_vibration(motion: LinearMotion, position: Position, ops: Ops) -> FreeVibration:
     """Return the pier's vibration under the constant forces of `motion`."""
     b, sigma = motion.b, 0.5 * motion.c
-    omega = ops.lib.sqrt(b - sigma * sigma)
+    square, least = b - sigma * sigma, LEAST_SQUARE * b
+    omega = ops.lib.sqrt(ops.where(square > least, square, least))
     force = motion.intercept1 + motion.gamma * motion.intercept2 + motion.pier_force
     static = motion.inverse_mp * force / b
     y, v = position.xp - static, position.vp
@@ -152,6 +172,7 @@ def time_without_change(
         square = v * v + 2.0 * a * gap
         arrives = (v > 0.0) & (square >= 0.0)
         root = lib.sqrt(where(arrives, square, 0.0))
+        arrives = arrives & ((v + root) * NO_BOUND > 2.0 * gap)
         arrival = where(arrives, 2.0 * gap / where(arrives, v + root, 1.0), NO_BOUND)
         arrival = where(gap > 0.0, arrival, 0.0)
         # Loading goes on while the body is faster than the pier can be.
@@ -213,8 +234,8 @@ def coast(
     vibration = free_vibration(motion, state.position, ops)
     bound = time_without_change(parameters, state, motion, vibration, ops)
     # Where nothing ever changes, one period brings the highest peak; numerical: 1 % to spare.
-    h = where(bound < NO_BOUND, SAFETY * bound, 1.01 * 2.0 * math.pi / vibration.omega)
-    worthwhile = constant & (h * vibration.omega > PHASE)
+    h = where(bound < NO_BOUND, SAFETY * bound, 1.01 * period(motion.b, vibration.sigma, ops))
+    worthwhile = constant & (h * ops.lib.sqrt(motion.b) > PHASE)
     if yielding is not None:
         farthest = abs(vibration.static) + vibration.reach(ops)
         # What holds the body to the pier is F2 + m2 x_p''.

@@ -20,6 +20,17 @@ def single(group: T, index: int) -> T:
     return _with_each(lambda item: item[index].item(), group)
 
 
+def replace(group: T, index: int, one: T) -> T:
+    """Return the same with one of floats at an index."""
+
+    def replaced(item: Any, value: Any) -> Any:
+        item = item.copy()
+        item[index] = value
+        return item
+
+    return _with_each(replaced, group, one)
+
+
 def repeat(group: T, size: int) -> T:
     """Return one of floats `size` times over."""
     return _with_each(lambda item: np.full(size, item), group)

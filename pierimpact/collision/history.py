@@ -9,11 +9,25 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.collision.coasting import coasting_position, creep, free_vibration
+from pierimpact.collision.coasting import (
+    Creep,
+    FreeVibration,
+    coasting_position,
+    creep,
+    free_vibration,
+)
 from pierimpact.collision.parameters import Collision
 from pierimpact.collision.regimes import LinearMotion, Position, State
 from pierimpact.collision.series import ARRAYS, FLOATS, TERMS, weights_of_all
-from pierimpact.collision.stepping import BODY, ENGINE, PIER, expand, longest_step, rates
+from pierimpact.collision.stepping import (
+    BODY,
+    ENGINE,
+    PIER,
+    evaluate,
+    expand,
+    longest_step,
+    rates,
+)
 from pierimpact.collision.yielding import Yielding
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.pier.member_forces import MemberForceHistory
@@ -25,6 +39,7 @@ Array: TypeAlias = NDArray[np.float64]
 # No mode advances by more than three radians in a piece: the chord between two of these samples
 # misses a maximum by less than 0.2 % of the amplitude.
 FRACTIONS = np.linspace(0.0, 1.0, 25)
+MOST_PIECES = 100_000  # numerical: with their samples they fill a gigabyte
 
 
 def hermite(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
@@ -357,14 +372,14 @@ class CollisionHistory:
         pieces: list[RecordedStep] = []
         for state, motion, length in self.steps:
             count = max(1, math.ceil(length / longest_step(motion, FLOATS) - 1e-9))
-            pieces.append((state, motion, length / count))
-            if count > 1:
-                yields = state.yielding is not None and state.yielding.direction != 0.0
-                coasting = (creep if yields else free_vibration)(motion, state.position, FLOATS)
-            for number in range(1, count):
-                t = number * length / count
-                position = coasting_position(motion, state.position, coasting, t, FLOATS)
-                later = state._replace(time=state.time + t, position=position)
+            if len(pieces) + count > MOST_PIECES:
+                raise RuntimeError(
+                    f"the pier vibrates too often for a history: more than {MOST_PIECES:,} pieces; "
+                    "peaks and contact times are known all the same"
+                )
+            positions = _positions(state, motion, length / count, count)
+            for number, position in enumerate(positions):
+                later = state._replace(time=state.time + number * length / count, position=position)
                 pieces.append((later, motion, length / count))
         return pieces
 
@@ -463,6 +478,39 @@ class CollisionHistory:
         pieces = values.reshape(len(values), -1, len(nodes)) @ (0.5 * width * weights)
         sums = np.cumsum(pieces, axis=1) * self._lengths
         return self._accumulate(np.pad(sums, ((0, 0), (1, 0))))
+
+
+def _positions(state: State, motion: LinearMotion, step: float, count: int) -> list[Position]:
+    """Return the positions in which steps of one motion begin."""
+    position = state.position
+    if count == 1:
+        return [position]
+    if coasting := _coasting(state, motion):
+        times = (number * step for number in range(1, count))
+        later = [coasting_position(motion, position, coasting, t, FLOATS) for t in times]
+        return [position, *later]
+    # Over one step, from no motion but under the forces, and from a unit of each coordinate.
+    forced, h = np.eye(1, 7, k=6)[0], np.full(7, step)
+    constants = ("intercept1", "intercept2", "friction", "pier_force")
+    each = motion._replace(**{name: getattr(motion, name) * forced for name in constants})
+    series = expand(each, rates(each, Position(*np.eye(6, 7))), h, TERMS, ARRAYS)
+    over_step = np.array(evaluate(series, h, np.ones(7), ARRAYS))
+    positions, z = [position], np.array(position)
+    for _ in range(1, count):
+        z = over_step[:, :6] @ z + over_step[:, 6]
+        positions.append(Position(*z.tolist()))
+    return positions
+
+
+def _coasting(state: State, motion: LinearMotion) -> FreeVibration | Creep | None:
+    """Return the pier's motion in closed form, where it has one."""
+    if state.yielding is None or state.yielding.direction == 0.0:
+        coupled = motion.slope1 or motion.gamma * motion.slope2
+        return None if coupled else free_vibration(motion, state.position, FLOATS)
+    if motion.slope1 or motion.on_pier or not state.stuck:
+        return None
+    creeping = creep(motion, state.position, FLOATS)
+    return creeping if creeping.beta > 0.0 else None
 
 
 def _known(time: float) -> float | None:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from pierimpact.collision.parameters import Parameters, Spring
 from pierimpact.collision.series import Flag, Ops, Real
-from pierimpact.collision.yielding import Yielding
+from pierimpact.collision.yielding import YIELDING_ENDS, Yielding
 
 FREE, ELASTIC, PLATEAU, STEEP = range(4)
 
@@ -61,7 +61,7 @@ class State(NamedTuple):
     body: Branch
     slip: Real  # direction of sliding: 1, −1, or 0 while it sticks or does not act
     stuck: Flag
-    last_change: Real  # time of the last change of regime
+    last_change: Real  # time of the last change of regime, but for the spring of a body at rest
     engine_contact: Real  # time of the first contact; nan before it
     cargo_contact: Real
     engine_peak: Real  # largest R/k_p before cargo contact
@@ -196,13 +196,17 @@ def linear_motion(parameters: Parameters, state: State, ops: Ops) -> LinearMotio
     )
     if state.yielding is None:
         return motion
-    direction, yields = state.yielding.direction, state.yielding.direction != 0.0
-    # Numerical, so that round-off stays small: ten times as long as it takes to crush the truck.
-    length = parameters.engine.plateau_length + parameters.body.plateau_length
-    rate = 0.1 * parameters.speed / length
+    direction, limit = state.yielding.direction, state.yielding.limit
+    yields = direction != 0.0
+    # Numerical, so that round-off stays small: ten times as long as it takes to crush the truck, or
+    # to stop it.
+    engine, body, resistance = parameters.engine, parameters.body, limit * parameters.pier_stiffness
+    length = engine.plateau_length + body.plateau_length
+    to_stop = (engine.mass + body.mass + parameters.pier_mass) * parameters.speed / resistance
+    rate = 1.0 / (10.0 * length / parameters.speed + to_stop)
     return motion._replace(
         b=where(yields, 0.0, b),
-        pier_force=motion.pier_force - direction * state.yielding.limit * parameters.pier_stiffness,
+        pier_force=motion.pier_force - direction * resistance,
         pace=where(yields, rate * rate, b),
     )
 
@@ -258,18 +262,30 @@ def change_regime(
     engine = next_branch(parameters.engine, state.engine, event, position.d1, ops)
     body = next_branch(parameters.body, state.body, event - 3, position.d2, ops)
     slip, stuck, u2 = update_friction(parameters, motion, resistance, state, body, event, ops)
-    yielding, xp = state.yielding, position.xp
+    yielding, position = state.yielding, position._replace(u2=u2)
     if yielding is not None:
-        yielding, xp = yielding.after(event, xp, ops)
+        yielding, xp = yielding.after(event, position.xp, ops)
+        # At rest to the last digit, or an undamped pier would yield a little more each time.
+        vp = where(event == YIELDING_ENDS, position.vp, 0.0)
+        position = position._replace(
+            u1=position.u1 + vp,
+            u2=position.u2 + where(stuck & parameters.on_pier, 0.0, vp),
+            xp=xp,
+            vp=position.vp - vp,
+        )
     meets_engine = (engine.regime == STEEP) & (state.engine_contact != state.engine_contact)
     meets_cargo = (body.regime == STEEP) & (state.cargo_contact != state.cargo_contact)
+    # Against a body that rests on the road the pier swings no farther each time.
+    matters = changes & ops.negate(
+        state.stuck & stuck & ops.negate(parameters.on_pier) & (event >= 3) & (event < FORWARD)
+    )
     return state._replace(
-        position=position._replace(u2=u2, xp=xp),
+        position=position,
         engine=engine,
         body=body,
         slip=slip,
         stuck=stuck,
-        last_change=where(changes, time, state.last_change),
+        last_change=where(matters, time, state.last_change),
         engine_contact=where(meets_engine, time, state.engine_contact),
         cargo_contact=where(meets_cargo, time, state.cargo_contact),
         cargo_peak=where(meets_cargo, state.elastic_displacement(ops), state.cargo_peak),

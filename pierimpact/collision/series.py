@@ -49,7 +49,7 @@ class Ops(NamedTuple):
     negate: Callable[[Flag], Flag]
     some: Callable[[Flag], bool]
     sizes: Callable[[Terms], Terms]
-    largest: Callable[[Real], float]
+    terms: Callable[[Real], int]  # of a step that is a part of the longest
     blank: Callable[[Real, int], Any]  # three series to fill in
     weights: Callable[[Real, int], Terms]  # θ^k/k!
     dot: Callable[[Terms, Terms], Real]  # Σ weights × terms
@@ -73,6 +73,20 @@ def weights_of_all(theta: Real, count: int = TERMS) -> Terms:
         power, known = power * power, known + more
     powers /= FACTORIALS[:count]
     return powers
+
+
+def dot_of_all(weights: Terms, terms: Terms) -> Real:
+    """Return Σ weights × terms, shape (n,), each the same to the last bit whatever the others."""
+    if terms.shape[1] == 1:  # alone, they would be added up in another order
+        return dot_of_all(np.repeat(weights, 2, axis=-1), np.repeat(terms, 2, axis=1))[:1]
+    return np.einsum("kn,kn->n", weights[: len(terms)], terms)
+
+
+def fixed_of_all(weights: list[float], terms: Terms) -> Real:
+    """Return the same, with one set of weights for all."""
+    if terms.shape[1] == 1:
+        return fixed_of_all(weights, np.repeat(terms, 2, axis=1))[:1]
+    return np.einsum("k,kn->n", weights[: len(terms)], terms)
 
 
 def terms_needed(part: float) -> int:
@@ -203,7 +217,7 @@ def rises_of_one(flagged: list[tuple[EventFunction, Flag]], series: Sequence[Ter
             for weight, which in parts
         ]
         terms = list(map(sum, zip(*weighted, strict=True)) if len(parts) > 1 else weighted[0])
-        terms[0] += level
+        terms[0] = _at_start(terms[0] + level, terms[1], FLOATS)
         due, part, shape = first_suspect(terms, FLOATS)
         if due:
             found.append((event, 0.0, True))
@@ -227,7 +241,7 @@ def rises_of_all(flagged: list[tuple[EventFunction, Flag]], series: Sequence[Ter
     suspect = np.flatnonzero((part < NEVER) & ~due)
     if len(suspect):
         theta[suspect], happens[suspect] = locate(
-            terms[:, suspect], part[suspect], shape[suspect], ARRAYS
+            terms.take(suspect, axis=1), part[suspect], shape[suspect], ARRAYS
         )
     found: list[Rise] = []
     first, size = 0, len(flagged[0][1])
@@ -243,12 +257,18 @@ def rises_of_all(flagged: list[tuple[EventFunction, Flag]], series: Sequence[Ter
 def _gather(function: EventFunction, indices: Any, series: Sequence[Terms]) -> Terms:
     width = len(series[0]) - 2
     weighted = [
-        weight[indices] * series[which][function.order : function.order + width, indices]
+        weight[indices]
+        * series[which][function.order : function.order + width].take(indices, axis=1)
         for weight, which in function.parts
     ]
     terms = sum(weighted[1:], start=weighted[0])
-    terms[0] += function.level[indices]
+    terms[0] = _at_start(terms[0] + function.level[indices], terms[1], ARRAYS)
     return terms
+
+
+def _at_start(value: Real, rate: Real, ops: Ops) -> Real:
+    """Return what a quantity starts from: zero where it is above but for round-off, and falls."""
+    return ops.where((value > 0.0) & (rate < 0.0), 0.0, value)
 
 
 FLOATS = Ops(
@@ -257,7 +277,7 @@ FLOATS = Ops(
     negate=lambda flag: not flag,
     some=bool,
     sizes=lambda terms: list(map(abs, terms)),
-    largest=lambda value: value,
+    terms=terms_needed,
     blank=lambda like, count: ([0.0] * count, [0.0] * count, [0.0] * count),
     weights=weights_of_one,
     dot=lambda weights, terms: sum(map(mul, weights, terms)),
@@ -270,10 +290,10 @@ ARRAYS = Ops(
     negate=np.logical_not,
     some=np.count_nonzero,
     sizes=np.abs,
-    largest=np.max,
+    terms=lambda part: TERMS,  # whatever the others need
     blank=lambda like, count: np.empty((3, count, len(like))),
     weights=weights_of_all,
-    dot=lambda weights, terms: np.einsum("kn,kn->n", weights[: len(terms)], terms),
-    fixed=lambda weights, terms: np.array(weights[: len(terms)]) @ terms,
+    dot=dot_of_all,
+    fixed=fixed_of_all,
     rises=rises_of_all,
 )

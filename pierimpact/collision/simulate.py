@@ -12,8 +12,8 @@ from pierimpact.collision.beam import ModalMotion, propagate_beam
 from pierimpact.collision.beam_history import BeamCollisionHistory
 from pierimpact.collision.history import CollisionHistory, RecordedStep
 from pierimpact.collision.parameters import Collision, parameter_chunks
+from pierimpact.collision.propagation import propagate, propagate_all
 from pierimpact.collision.regimes import LinearMotion, State
-from pierimpact.collision.stepping import Outcomes, propagate, propagate_all
 from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
@@ -44,6 +44,9 @@ def simulate(
     ------
     InputError
         As in `Collision`, and when the duration is negative.
+    RuntimeError
+        When the collision does not come to an end within a limit of steps, far beyond what any
+        real truck and pier need.
     """
     collision, duration = Collision(truck, pier, speed), not_negative("duration", duration)
     if isinstance(collision.pier, BeamPier):
@@ -137,13 +140,18 @@ def peak_reactions(
     ------
     InputError
         When a value is out of range or the shapes do not broadcast.
+
+    Warns
+    -----
+    UnfinishedWarning
+        When a collision does not come to an end within a limit of steps, far beyond what any real
+        truck and pier need; all its results are nan, and the warning has its index.
     """
     shape, chunks = parameter_chunks(
         truck, pier_mass, pier_stiffness, damping_ratio, speed, yield_reaction
     )
     parameters = (chunk for _, chunk in chunks)
-    flat = propagate_all(parameters, math.prod(shape), progress=progress)
-    found = Outcomes(*(outcome.reshape(shape) for outcome in flat))
+    found = propagate_all(parameters, shape, progress=progress)
     stiffness, resistance = (np.asarray(x, dtype=float) for x in (pier_stiffness, yield_reaction))
     return PeakReactions(
         engine=np.minimum(stiffness * found.engine_peak, resistance),

@@ -6,14 +6,10 @@ friction past its regime ends at the instant of the change, found on the series 
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Sequence
+from typing import TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
-from pierimpact.collision.coasting import coast
-from pierimpact.collision.groups import CHUNK, join, select
+from pierimpact.collision.coasting import period
 from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import (
     BACKWARD,
@@ -31,14 +27,10 @@ from pierimpact.collision.regimes import (
     State,
     accelerations,
     change_regime,
-    linear_motion,
     raise_peak,
-    start,
 )
 from pierimpact.collision.series import (
-    ARRAYS,
     END,
-    FLOATS,
     NEVER,
     PHASE,
     EventFunction,
@@ -46,7 +38,6 @@ from pierimpact.collision.series import (
     Ops,
     Real,
     Terms,
-    terms_needed,
 )
 from pierimpact.collision.yielding import (
     HARDLY,
@@ -62,8 +53,8 @@ PIER_EXTREME = 8  # of its displacement: an event, but not a change of regime
 
 # Numerical settings.
 TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative to its scale
+INACTIVE = -math.inf  # level of a quantity that ends no regime
 HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
-STEPS = 100_000  # limit; no collision of the studied domain takes a hundredth of it
 
 Rates: TypeAlias = tuple[Real, Real, Real]  # value, first and second rate
 Series: TypeAlias = tuple[Terms, Terms, Terms]  # of δ1, δ2 and x_p
@@ -113,7 +104,7 @@ def longest_step(motion: LinearMotion, ops: Ops) -> Real:
     """Return the step in which no mode of the regime turns by more than PHASE."""
     slope1, slope2, c = motion.slope1, motion.slope2, motion.c
     g1, g2 = motion.inverse_m1 * slope1, motion.inverse_m2 * slope2
-    square = motion.pace + motion.inverse_mp * (slope1 + slope2)
+    square = motion.pace + motion.inverse_mp * (slope1 + motion.gamma * slope2)
     return PHASE / ops.lib.sqrt(square + ops.where(g1 > g2, g1, g2) + c * c)
 
 
@@ -128,7 +119,9 @@ def event_functions(
         (ENGINE, parameters.engine, state.engine),
         (BODY, parameters.body, state.body),
     ):
-        first, per_length = 3 * which, 1.0 / spring.plateau_length
+        # A plateau may be much shorter than what the steep part gives.
+        scale = where(line.largest > spring.plateau_length, line.largest, spring.plateau_length)
+        first, per_length = 3 * which, 1.0 / scale
         loading = line.regime >= PLATEAU
         if some(line.upper < NO_BOUND):
             level = -line.upper * per_length - TOLERANCE
@@ -137,14 +130,14 @@ def event_functions(
             level = line.lower * per_length - TOLERANCE
             functions.append(EventFunction(first + LOWER, 0, ((-per_length, which),), level))
         if some(loading):
-            level = where(loading, -TOLERANCE, -NO_BOUND)
+            level = where(loading, -TOLERANCE, INACTIVE)
             functions.append(EventFunction(first + TURN, 1, ((-per_speed, which),), level))
 
     # Sliding ends where the relative velocity would reverse.
     acts = parameters.friction_force > 0.0
     slides = acts & (state.slip != 0.0)
     if some(slides):
-        level, back = where(slides, -TOLERANCE, -NO_BOUND), -state.slip * per_speed
+        level, back = where(slides, -TOLERANCE, INACTIVE), -state.slip * per_speed
         parts = ((back, BODY), (where(parameters.on_pier, 0.0, back), PIER))
         functions.append(EventFunction(FORWARD, 1, parts, level))
 
@@ -160,7 +153,7 @@ def event_functions(
             (state.stuck & negate(parameters.on_pier), 0, slope, BODY),
             (state.stuck & parameters.on_pier, 2, inertia, PIER),
         ):
-            level = where(acts & stuck, -HOLDING_WEIGHT - TOLERANCE, -NO_BOUND)
+            level = where(acts & stuck, -HOLDING_WEIGHT - TOLERANCE, INACTIVE)
             functions.append(EventFunction(FORWARD, order, ((-weight, which),), level - force))
             functions.append(EventFunction(BACKWARD, order, ((weight, which),), level + force))
 
@@ -170,11 +163,14 @@ def event_functions(
         elastic, yields = direction == 0.0, direction != 0.0
         if some(elastic):
             per_limit = where(elastic, 1.0 / state.yielding.limit, 0.0)
-            level = where(elastic, -1.0 - TOLERANCE, -NO_BOUND)
+            level = where(elastic, -1.0 - TOLERANCE, INACTIVE)
             functions.append(EventFunction(YIELDS_FORWARD, 0, ((per_limit, PIER),), level))
             functions.append(EventFunction(YIELDS_BACKWARD, 0, ((-per_limit, PIER),), level))
         if some(yields):
-            level, back = where(yields, -TOLERANCE, -NO_BOUND), -direction * per_speed
+            # The truck's momentum gives a heavy pier no more than a share of its speed.
+            truck = parameters.engine.mass + parameters.body.mass
+            back = -direction * per_speed * (1.0 + parameters.pier_mass / truck)
+            level = where(yields, -TOLERANCE, INACTIVE)
             functions.append(EventFunction(YIELDING_ENDS, 1, ((back, PIER),), level))
     return functions
 
@@ -269,7 +265,7 @@ def advance(
     initial = rates(motion, state.position)
     longest = longest_step(motion, ops)
     h = trial_step(longest, initial, functions, ops)
-    series = expand(motion, initial, h, terms_needed(ops.largest(h / longest)), ops)
+    series = expand(motion, initial, h, ops.terms(h / longest), ops)
     flagged = may_rise(functions, series, state.peak(ops), h, ops, state.yielding)
     state, event, theta = first_event(flagged, series, state, h, ops)
     length, position = theta * h, evaluate(series, h, theta, ops)
@@ -292,23 +288,28 @@ def prospects(
     pier.
     """
     where = ops.where
-    engine, body, on_pier = parameters.engine, parameters.body, parameters.on_pier
+    engine, body = parameters.engine, parameters.body
     d1, u1, d2, u2, _, vp = state.position
     v1, v2 = u1 + vp, u2 + vp
     energy = pier_energy + where(v1 > 0.0, 0.5 * engine.mass * v1**2, 0.0)
-    energy = energy + where((v2 > 0.0) | on_pier, 0.5 * body.mass * v2**2, 0.0)
+    drags = parameters.on_pier & (parameters.friction_force > 0.0)
+    energy = energy + where((v2 > 0.0) | drags, 0.5 * body.mass * v2**2, 0.0)
+    F1 = state.engine.intercept + state.engine.slope * d1
+    F2 = state.body.intercept + state.body.slope * d2
+    energy = energy + 0.5 * F1**2 / engine.unloading_stiffness
+    in_all = energy = energy + 0.5 * F2**2 / body.unloading_stiffness
+    if state.yielding is not None:
+        energy = energy - kept_by_spring(parameters, state, F2, state.yielding, ops)
     no_contact: Flag = True
     for spring, line, d, contact in (
         (engine, state.engine, d1, state.engine_contact),
         (body, state.body, d2, state.cargo_contact),
     ):
-        force = line.intercept + line.slope * d
-        if state.yielding is not None and spring is body:
-            energy = energy - kept_by_spring(parameters, state, force, state.yielding, ops)
-        energy = energy + 0.5 * force**2 / spring.unloading_stiffness
         crushed = where(d > line.largest, d, line.largest)
-        needed = spring.plateau_force * (spring.plateau_length - crushed)
-        no_contact = no_contact & ((contact == contact) | (needed > energy))
+        # The plateau's work, and what the spring holds at its end.
+        held = 0.5 * spring.plateau_force**2 / spring.unloading_stiffness
+        needed = held + spring.plateau_force * (spring.plateau_length - crushed)
+        no_contact = no_contact & ((contact == contact) | (needed > in_all))
     peak = state.peak(ops)
     peak = where(peak > 0.0, peak, 0.0)
     no_peak = 2.0 * energy <= parameters.pier_stiffness * peak**2 * (1.0 + 1e-9)
@@ -350,13 +351,19 @@ def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
     elastic = state.elastic_displacement(ops)
     energy = 0.5 * (stiffness * elastic**2 + mass * state.position.vp**2)
     decided, left = prospects(parameters, state, energy, ops)
-    vibrating_mass = mass + ops.where(parameters.on_pier, parameters.body.mass, 0.0)
-    period = 2.0 * math.pi * ops.lib.sqrt(vibrating_mass / stiffness)
-    left = left & (state.time > state.last_change + period)
+    left = left & (state.time > state.last_change + swing(parameters, ops))
     if yielding is not None:
         elastic = yielding.direction == 0.0
         decided, left = decided & elastic, left & (elastic | held(parameters, state, yielding))
     return decided | left
+
+
+def swing(parameters: Parameters, ops: Ops) -> Real:
+    """Return how long the pier swings until nothing new comes, a body that sticks to it or not."""
+    mass = parameters.pier_mass
+    moving = mass + ops.where(parameters.on_pier, parameters.body.mass, 0.0)
+    sigma = 0.5 * parameters.pier_damping * ops.lib.sqrt(1.0 / (mass * moving))
+    return period(parameters.pier_stiffness / moving, sigma, ops)
 
 
 def held(parameters: Parameters, state: State, yielding: Yielding) -> Flag:
@@ -369,133 +376,3 @@ def held(parameters: Parameters, state: State, yielding: Yielding) -> Flag:
     surplus = surplus - yielding.direction * yielding.limit * parameters.pier_stiffness
     square = surplus**2 + line.slope * parameters.pier_mass * position.vp**2
     return square <= (HARDLY * line.slope * yielding.largest) ** 2
-
-
-def propagate(
-    parameters: Parameters,
-    duration: float = 0.0,
-    record: Callable[[State, LinearMotion, float], None] = lambda state, motion, h: None,
-) -> State:
-    """Return the last state of one collision, in which nothing more can happen.
-
-    It is propagated for `duration` at least [s]. After each step `record` is called with the state
-    it started from, its equations of motion and its length [s].
-
-    Raises
-    ------
-    RuntimeError
-        When the collision does not come to an end.
-    """
-    state = start(parameters, FLOATS)
-    for _ in range(STEPS):
-        motion = linear_motion(parameters, state, FLOATS)
-        new, h = coast(parameters, state, motion, FLOATS)
-        record(state, motion, h)
-        state, h = advance(parameters, new, motion, FLOATS)
-        record(new, motion, h)
-        if state.time >= duration and finished(parameters, state, FLOATS):
-            return state
-    raise RuntimeError("the collision did not come to an end")
-
-
-class Outcomes(NamedTuple):
-    """Peaks of R/k_p with their times, times of the first contacts, and yielding, by collision."""
-
-    engine_peak: NDArray[np.float64]
-    cargo_peak: NDArray[np.float64]
-    engine_peak_time: NDArray[np.float64]
-    cargo_peak_time: NDArray[np.float64]
-    engine_contact: NDArray[np.float64]
-    cargo_contact: NDArray[np.float64]
-    largest: NDArray[np.float64]  # as in `Yielding`; zero where no pier can yield
-    displacement: NDArray[np.float64]
-    path: NDArray[np.float64]
-
-
-def outcomes_of(state: State) -> Outcomes:
-    """Return what the states of collisions hold of their outcomes."""
-    yielding = state.yielding
-    largest = displacement = path = 0.0 * state.time
-    if yielding is not None:
-        more = yielding.beyond(state.position.xp, ARRAYS)
-        largest = yielding.largest
-        displacement, path = yielding.displacement + more, yielding.path + abs(more)
-    return Outcomes(
-        engine_peak=state.engine_peak,
-        cargo_peak=state.cargo_peak,
-        engine_peak_time=state.engine_peak_time,
-        cargo_peak_time=state.cargo_peak_time,
-        engine_contact=state.engine_contact,
-        cargo_contact=state.cargo_contact,
-        largest=largest,
-        displacement=displacement,
-        path=path,
-    )
-
-
-class Running(NamedTuple):
-    """Collisions being propagated, side by side."""
-
-    parameters: Parameters
-    state: State
-    column: NDArray[np.int_]  # among the outcomes
-    steps: NDArray[np.int_]  # taken so far
-
-
-def propagate_all(
-    chunks: Iterable[Parameters],
-    size: int,
-    initial_state: Callable[[Parameters, Ops], State] = start,
-    progress: Callable[[int], object] = lambda count: None,
-) -> Outcomes:
-    """Propagate collisions side by side until nothing more can happen in any.
-
-    Finished collisions make room for the next chunk, so that the arrays neither grow with the
-    number of collisions nor run almost empty.
-
-    Parameters
-    ----------
-    chunks : iterable of Parameters
-        Some collisions at a time, in all as many as `size`.
-    initial_state : callable, optional
-        From collisions to the states they start from; first touch unless another is given.
-    progress : callable, optional
-        Called with the number of collisions done since the last call.
-
-    Raises
-    ------
-    RuntimeError
-        When a collision does not come to an end.
-    """
-    outcomes = np.empty((len(Outcomes._fields), size))
-    waiting = _running(chunks, initial_state)
-    running = next(waiting, None)
-    while running and len(running.column):
-        parameters, state, column, steps = running
-        done = np.zeros(len(column), dtype=bool)
-        # Removing collisions costs about as much as a step: wait until a fifth of them is done.
-        while 5 * np.count_nonzero(done) <= len(done) and not done.all():
-            motion = linear_motion(parameters, state, ARRAYS)
-            state, _h = coast(parameters, state, motion, ARRAYS)
-            state, _h = advance(parameters, state, motion, ARRAYS)
-            done |= finished(parameters, state, ARRAYS)
-            steps = steps + 1
-            if steps.max() > STEPS:
-                raise RuntimeError("a collision did not come to an end")
-        outcomes[:, column[done]] = select(outcomes_of(state), done)
-        progress(int(np.count_nonzero(done)))
-        running = select(Running(parameters, state, column, steps), ~done)
-        if 2 * len(running.column) < CHUNK:
-            more = next(waiting, None)
-            running = join(running, more) if more else running
-    return Outcomes(*outcomes)
-
-
-def _running(
-    chunks: Iterable[Parameters], initial_state: Callable[[Parameters, Ops], State]
-) -> Iterator[Running]:
-    first = 0
-    for parameters in chunks:
-        column = np.arange(first, first + len(parameters.speed))
-        first += len(column)
-        yield Running(parameters, initial_state(parameters, ARRAYS), column, 0 * column)

@@ -23,9 +23,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import InputError, positive_array, ratio_array
 from pierimpact.collision.parameters import Parameters, Spring, in_chunks
+from pierimpact.collision.propagation import propagate_all
 from pierimpact.collision.regimes import FREE, STEEP, Position, State, branch, start
 from pierimpact.collision.series import Ops
-from pierimpact.collision.stepping import propagate_all
 from pierimpact.pier.equivalent import damping_coefficient
 
 # Numerical: distance of the absent body from the pier, in units of v_i √(m_i/k_i).
@@ -82,8 +82,9 @@ def exact_amplification(
         pier_damping=damping_coefficient(pier_mass, pier_stiffness, zeta),
         speed=one,
     )
-    peak = propagate_all(in_chunks(parameters), len(beta), _at_contact).engine_peak
-    return np.reshape(pier_stiffness * peak, arrays[0].shape)
+    shape = arrays[0].shape
+    peak = propagate_all(in_chunks(parameters), shape, _at_contact).engine_peak
+    return np.asarray(pier_stiffness.reshape(shape) * peak)
 
 
 def _at_contact(parameters: Parameters, ops: Ops) -> State:

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.groups import select, single
 from pierimpact.collision.parameters import Collision, Parameters, Spring, in_chunks
+from pierimpact.collision.propagation import propagate, propagate_all
 from pierimpact.collision.regimes import STEEP, LinearMotion, State
-from pierimpact.collision.stepping import propagate, propagate_all
 from pierimpact.design import domain, procedure
 from pierimpact.design.procedure import LEVELS, design_values
 from pierimpact.design.reduction import exact_amplification
@@ -60,7 +60,7 @@ class Reactions(NamedTuple):
 
 def full_model(parameters: Parameters) -> Reactions:
     """Return the peak reactions by the full model."""
-    peaks = propagate_all(in_chunks(parameters), len(parameters.speed))
+    peaks = propagate_all(in_chunks(parameters), parameters.speed.shape)
     engine = parameters.pier_stiffness * peaks.engine_peak
     cargo = parameters.pier_stiffness * peaks.cargo_peak
     return Reactions(engine, cargo, np.fmax(engine, cargo))
