@@ -10,6 +10,7 @@ from pierimpact.certainty import Certainty
 from pierimpact.design.codes import aashto_lrfd, aashto_lrfd_former, code_forces
 from pierimpact.files.case import case_from
 from pierimpact.report.sheet import Sheet
+from pierimpact.report.sheet.sensitivity import Sensitivities
 from pierimpact.report.warnings import limits_of_the_study
 
 PSI = 0.45359237 * 9.80665 / 0.0254**2
@@ -21,7 +22,7 @@ def sheet():
 
 
 def test_speeds_are_5_mph_apart(sheet):
-    rows = sheet.sensitivity.table().rows
+    rows = Sensitivities(sheet.calculation).table().rows
     assert [row[:2] for row in rows[1:3]] == [
         ["Speed less 5 mph", "50 mph"],
         ["Speed more 5 mph", "60 mph"],

@@ -1,5 +1,8 @@
 """The calculation sheet of a case: a file for each of its headings, and a method for each block."""
 
+from collections.abc import Callable
+from typing import Any
+
 from pierimpact.files.case import Case
 from pierimpact.files.inputs import ANNEXES
 from pierimpact.report.calculation import calculate
@@ -14,8 +17,18 @@ from pierimpact.report.sheet.first_page import FirstPage
 from pierimpact.report.sheet.full_model import FullModel
 from pierimpact.report.sheet.inputs import Inputs
 from pierimpact.report.sheet.member_forces import MemberForces
-from pierimpact.report.sheet.sensitivity import Variations
+from pierimpact.report.sheet.section import Section
+from pierimpact.report.sheet.sensitivity import Sensitivities, Variations
 from pierimpact.report.sheet.spectrum_method import SpectrumMethod
+
+
+class _NotAsked:
+    """An annex that is not asked for: each of its blocks is None."""
+
+    def __getattr__(self, name: str) -> Callable[..., None]:
+        if name.startswith("_"):  # asked for by Python itself
+            raise AttributeError(name)
+        return lambda *_: None
 
 
 class Sheet:
@@ -41,14 +54,18 @@ class Sheet:
         self.member_forces = MemberForces(self.calculation)
         self.codes = Codes(self.calculation)
         self.sensitivity = Variations(self.calculation)
-        self.derivation = Derivation(self.calculation)
-        self.procedure = DesignProcedure(self.calculation)
-        annexes = {"pier": self.derivation, "procedure": self.procedure}
+        self.derivation = self._annex("pier", Derivation)
+        self.procedure = self._annex("procedure", DesignProcedure)
+        self.sensitivities = self._annex("sensitivity", Sensitivities)
         sections = (
             *(self.inputs, self.pier, self.model, self.spectrum_method, self.member_forces),
-            *(annex for name, annex in annexes.items() if name in case.inputs.annexes),
+            *(part for part in (self.derivation, self.procedure) if isinstance(part, Section)),
         )
         self.closing = Closing(self.calculation, sections, case_file, case_sha256)
+
+    def _annex(self, name: str, section: type[Section]) -> Any:
+        """Return the section of an annex; one that is not asked for makes no block."""
+        return section(self.calculation) if name in self.case.inputs.annexes else _NotAsked()
 
     def annex(self, name: str, title: str) -> Annex:
         """Return the beginning of an annex, one of `ANNEXES`, which the case asks for or not."""

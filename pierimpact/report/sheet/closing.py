@@ -77,8 +77,13 @@ class Closing(Section):
         sha256 = self.case.shared_sha256
         return [["pierimpact.toml, SHA-256", Code(sha256)]] if sha256 else []
 
-    def nomenclature(self) -> Block:
-        """Return every symbol of the sheet, its meaning and where it stands, by alphabet."""
+    def nomenclature(self) -> Block | None:
+        """Return every symbol of the sheet, its meaning and where it stands, by alphabet.
+
+        None where the case does not ask for it: it takes all the equations of the sheet.
+        """
+        if "nomenclature" not in self.case.inputs.annexes:
+            return None
         labels: dict[str, str] = {}
         for section in self.sections:
             labels = section.symbols() | labels

@@ -1,4 +1,4 @@
-"""The spectra with this pier, and how the reaction changes with what it depends on."""
+"""What moves the reaction most, and, in an annex, how it changes with all that it depends on."""
 
 from pierimpact.design.sensitivity import MASS_CHANGE
 from pierimpact.plots.band import draw_band
@@ -32,6 +32,10 @@ class Variations(Section):
                 self.system,
             ),
         )
+
+
+class Sensitivities(Section):
+    """Annex: the reaction over speed, mass, height and frequency, and the band of the truck."""
 
     def figure(self) -> Block:
         """Return the governing reaction against speed, mass, impact height and pier frequency."""
