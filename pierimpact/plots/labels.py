@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.plots.style import INK
 
 _FINE = 2  # picture elements a point
+_STEP = (4, 2)  # from one place to the next, across and upward [picture elements]
 _PAD, _NEAR = 1.5, 7.0  # left free around a label; distance beyond which it has a line [pt]
 _PALE = 200.0  # of 255: areas as bright as this may lie under a label
 _SIDE = 0.15  # what a place on the wrong side costs, over what distance costs
@@ -93,8 +94,8 @@ def _places(taken: NDArray[np.bool_], size: NDArray[np.int_], axes: Axes) -> NDA
     width, height = size
     left, bottom = (max(int(np.ceil(end)), 0) for end in axes.bbox.p0)
     right, top = (min(int(end), n) for end, n in zip(axes.bbox.p1, taken.T.shape, strict=True))
-    x = np.arange(left, max(right - width, left) + 1, _FINE)
-    y = np.arange(bottom, max(top - height, bottom) + 1, _FINE)[:, None]
+    x = np.arange(left, max(right - width, left) + 1, _STEP[0])
+    y = np.arange(bottom, max(top - height, bottom) + 1, _STEP[1])[:, None]
     covered = sums[y + height, x + width] - sums[y, x + width] - sums[y + height, x] + sums[y, x]
     rows, columns = np.nonzero(covered == covered.min())
     return np.stack((x[columns], y[rows, 0]), axis=-1)
