@@ -119,9 +119,9 @@ cp | c_\mathrm{p} | damping | damping coefficient of the pier
 on_pier | \text{friction acts on the pier} |  | friction on the pier
 omega | \omega_\mathrm{p} | circular frequency | natural circular frequency of the pier
 omega_d | \omega_\mathrm{d} | circular frequency | damped circular frequency of the pier
-Q | Q | force | force of the body on the pier, its spring on the plateau
+Q | Q | force | force of the body’s plateau on the pier
 Fpl | F_\mathrm{pl} | force | total plateau force on the pier
-Rpl | R_\mathrm{pl} | force | plateau peak, the largest reaction to the plateaus alone
+Rpl | R_\mathrm{pl} | force | plateau peak: reaction to the plateaus alone
 a1 | a_1 | acceleration | deceleration of the engine on its plateau
 Fb | F_\mathrm{b} | force | retarding force on the body
 a2 | a_2 | acceleration | deceleration of the body on its plateau
@@ -132,7 +132,7 @@ x1_0 | x_{\mathrm{p}1}' | length | displacement of the pier at $t_1'$
 t1 | t_1 | time | time of engine contact
 x1 | x_{\mathrm{p}1} | length | displacement of the pier at $t_1$
 dx1 | \dot x_{\mathrm{p}1} | speed | velocity of the pier at $t_1$
-v1 | v_1 | speed | contact speed of the engine; zero if it stops before
+v1 | v_1 | speed | contact speed of the engine, zero if it stops
 beta1 | \beta_1 | share | frequency ratio of pier to engine
 mu1 | \mu_1 | share | mass ratio of engine to pier
 e1 | e_1 | share | coefficient of restitution, engine
@@ -160,7 +160,7 @@ x2_0 | x_{\mathrm{p}2}' | length | displacement of the pier at $t_2'$
 t2 | t_2 | time | time of cargo contact
 x2 | x_{\mathrm{p}2} | length | displacement of the pier at $t_2$
 dx2 | \dot x_{\mathrm{p}2} | speed | velocity of the pier at $t_2$
-v2 | v_2 | speed | contact speed of the cargo; zero if it stops before
+v2 | v_2 | speed | contact speed of the cargo, zero if it stops
 tc | t_\mathrm{c} | time | time of the first maximum after the engine’s impact
 
 # Cargo
@@ -169,8 +169,8 @@ mu2 | \mu_2 | share | mass ratio of cargo to pier
 e2 | e_2 | share | coefficient of restitution, cargo
 h2 | h_2 | share | resonance term of the spectrum, cargo
 S2 | S_2 | share | amplification factor, cargo
-F2 | \hat F_2 | force | rise of the cargo’s force above its plateau on a rigid pier
-Rv2 | R_{\mathrm{v}2} | force | the same reaction, decayed until the cargo arrives
+F2 | \hat F_2 | force | rise of the cargo’s force on a rigid pier
+Rv2 | R_{\mathrm{v}2} | force | the same, decayed until the cargo arrives
 eta | \eta | share | share of $R_{\mathrm{v}2}$ added to the cargo reaction
 R2 | R_2 | force | cargo reaction
 x0 | x_0 | length | static part of the displacement in contact with the cargo

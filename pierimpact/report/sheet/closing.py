@@ -49,25 +49,25 @@ class Closing(Section):
     def made_from(self) -> Block:
         """Return in three lines what the sheet was made from."""
         truck_file = self.case.truck_file
-        case_file: list[Piece] = ["No case file: the case was set in the notebook."]
+        case_file: list[Piece] = ["no case file: the case was set in the notebook"]
         if self.case_file and self.case_sha256:
             case_file = [
-                "Case file ",
+                "case file ",
                 Code(self.case_file),
                 ", SHA-256 ",
                 Code(self.case_sha256[:_SHORT]),
-                "….",
+                "…",
             ]
         return Notes(
             [
-                f"{_software()}; energy balance {_closes(self.calculation.history.energy_error)}.",
-                tuple(case_file),
                 (
-                    "Truck file ",
+                    f"Made by {_software()}, from ",
+                    *case_file,
+                    ", and truck file ",
                     Code(truck_file.file_name),
                     f", {truck_file.status.words}, SHA-256 ",
                     Code(truck_file.sha256[:_SHORT]),
-                    "….",
+                    f"…. The energy balance {_closes(self.calculation.history.energy_error)}.",
                 ),
             ]
         )
