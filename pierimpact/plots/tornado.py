@@ -17,7 +17,7 @@ from pierimpact.units import unit_of, unit_size
 
 _ROW, _TOP, _BOTTOM, _NAMES = 3.6, 4.0, 9.0, 56.0  # [mm]
 _BAR = 0.62  # height of a bar, over that of its row
-_FEWEST, _MOST = 4, 9  # rows, the others move the reaction less
+_FEWEST, _MOST = 4, 8  # rows, the others move the reaction less
 _LEAST = 0.002  # of the reaction, by which a change that is drawn moves it
 _NEAR = 0.1  # share by which impact height and pier frequency change, or the nearest calculated
 _LINE: dict[str, Any] = {"edgecolor": INK, "linewidth": 0.5}
