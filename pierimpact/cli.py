@@ -24,6 +24,11 @@ failed; 130 if interrupted, which leaves complete files only.
 """
 
 
+_PAGE = """\
+Write one HTML file that shows what the pier's frequency does to the peaks of engine and cargo. It
+solves the collisions itself and needs neither Python nor a network.
+"""
+
 _FIT = """\
 Fit the crush-law parameters of a truck to force records, measured or from finite elements. A
 record is a CSV file with a heading such as: time [ms], contact force [kN]; the force may also be
@@ -52,6 +57,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _collect(options.folder, options.csv)
         if options.command == "fit":
             return _fit(options)
+        if options.command == "page":
+            return _page(options.page, options.trucks)
         return _report(options.cases, options.output)
     except InputError as error:
         _complain(error)
@@ -121,6 +128,18 @@ def _parser() -> argparse.ArgumentParser:
         default="marks.csv",
         help="table to write (default: %(default)s)",
     )
+    page = commands.add_parser(
+        "page", help="write the explorer as one HTML file", description=_PAGE
+    )
+    page.add_argument("page", metavar="PAGE.html", help="file to write")
+    page.add_argument(
+        "--truck",
+        dest="trucks",
+        metavar="TRUCK",
+        nargs="+",
+        default=["single-unit-8t"],
+        help="trucks to choose from: names of the catalogue or truck files (default: %(default)s)",
+    )
     _add_fit(commands)
     return parser
 
@@ -182,7 +201,8 @@ def _add_fit(commands: Any) -> None:
 
 
 def _fit(options: argparse.Namespace) -> int:
-    from pierimpact.report.fit import Treatment, fit_files, fit_table, write_files
+    from pierimpact.files.write import write_files
+    from pierimpact.report.fit import Treatment, fit_files, fit_table
 
     treatment = Treatment(
         filter=_given(options, "filter", "frequency"),
@@ -304,6 +324,15 @@ def _collect(folder: str, table: str) -> int:
     print(f"{table}: students {marks.students}, files read {marks.files}", flush=True)
     for remark in marks.remarks:
         _complain(remark)
+    return 0
+
+
+def _page(path: str, trucks: Sequence[str]) -> int:
+    try:
+        from pierimpact.teaching.page import write_page
+    except ModuleNotFoundError as error:
+        return _needs("pages", error)
+    print(write_page(path, trucks))
     return 0
 
 

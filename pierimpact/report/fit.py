@@ -152,27 +152,3 @@ def fit_rows(fit: TruckFit) -> list[tuple[str, str, str, str, str]]:
         error = f"{100.0 * estimate.standard_error / estimate.value:.1f} %"
         rows.append((symbol.heading, start, value, error, estimate.reason or "identified"))
     return rows
-
-
-def write_files(contents: dict[Path, bytes]) -> None:
-    """Write files, all or none.
-
-    Raises
-    ------
-    InputError
-        When one cannot be written.
-    """
-    parts = {path: path.with_name(f".{path.name}.part") for path in contents}
-    path = Path()
-    try:
-        for path, content in contents.items():
-            parts[path].write_bytes(content)
-            if path.is_dir():
-                raise IsADirectoryError(0, "there is a folder of that name")
-        for path, part in parts.items():
-            part.replace(path)
-    except OSError as error:
-        raise InputError(f"{path} cannot be written to: {error.strerror}") from None
-    finally:
-        for part in parts.values():
-            part.unlink(missing_ok=True)

@@ -1,0 +1,541 @@
+"""The page without Python: its solver against the package's, and the page in a real browser."""
+
+import base64
+import hashlib
+import json
+import math
+import re
+import shutil
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from generated_collisions import HARD, collisions, side_by_side
+
+from pierimpact import cli, load_truck, peak_reactions
+from pierimpact.checks import InputError
+from pierimpact.files.trucks import read_truck_file, truck_names
+from pierimpact.pier.equivalent import stiffness_at_frequency
+from pierimpact.teaching import page as pages
+
+HOUSE = Path(__file__).parents[1]
+MODULES = HOUSE / "templates" / "page"
+NODE = shutil.which("node")
+CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+CASES = [*collisions(300, seed=12), *HARD.values()]
+OPTIONS = (
+    "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+)  # fmt: skip
+PATIENCE = 120  # only a page that hangs takes longer [s]
+RANGE = {"low": 5.0, "high": 180.0}
+PIER = {"mass": pages.PIER_MASS, "dampingRatio": 0.05}
+
+# The solver's outcomes of cases, [[truck, pier, speed], …].
+OUTCOMES = "cases.map(([truck, pier, speed]) => simulate(truck, pier, speed))"
+
+
+def as_arguments(case):
+    pier = {
+        "mass": case.pier.mass,
+        "stiffness": case.pier.stiffness,
+        "dampingRatio": case.pier.damping_ratio,
+    }
+    return pages.truck_data(case.truck), pier, case.speed
+
+
+def in_node(program, value):
+    """Return what a program of the page's modules prints as JSON, given a value as `cases`."""
+    if not NODE:
+        pytest.skip("no Node: apt-get install nodejs")
+    imports = "".join(
+        f"import {{ {names} }} from '{(MODULES / name).as_uri()}.mjs';\n"
+        for names, name in (
+            ("simulate", "model"),
+            ("bandsOf, coarseSpectrum, refine", "spectrum"),
+            ("follow", "history"),
+        )
+    )
+    reads = "import { readFileSync } from 'node:fs'; const cases = JSON.parse(readFileSync(0));\n"
+    done = subprocess.run(
+        [
+            NODE,
+            "--input-type=module",
+            "-e",
+            f"{imports}{reads}console.log(JSON.stringify({program}))",
+        ],
+        input=json.dumps(value),
+        capture_output=True,
+        encoding="utf-8",
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def agree(outcomes):
+    """Hold outcomes of CASES, as the page's solver gives them, against the package's."""
+    peaks = peak_reactions(**side_by_side(CASES))
+
+    def column(name):
+        return np.array([outcome[name] for outcome in outcomes], dtype=float)
+
+    assert np.isnan(peaks.cargo).any()
+    assert np.isnan(peaks.engine_contact_time).any()
+    for ours, theirs in (
+        ("engine", peaks.engine),
+        ("cargo", peaks.cargo),
+        ("engineContact", peaks.engine_contact_time),
+        ("cargoContact", peaks.cargo_contact_time),
+    ):
+        np.testing.assert_allclose(column(ours), theirs, rtol=1e-5)  # nan where there is none
+
+
+def test_the_solver_finds_the_packages_peaks_and_contacts():
+    agree(in_node(OUTCOMES, [as_arguments(case) for case in CASES]))
+
+
+def test_momentum_is_kept_along_the_history():
+    # Momentum of truck and pier, and what the pier's spring and damper and the road took.
+    truck = load_truck("single-unit-8t")
+    stiffness = float(stiffness_at_frequency(PIER["mass"], 40.0))
+    damping = 2.0 * 0.05 * math.sqrt(stiffness * PIER["mass"])
+    speed, duration = 25.0, 0.12
+    pier = PIER | {"stiffness": stiffness}
+    times = np.linspace(0.0, duration, 6001).tolist()
+    program = (
+        "(() => { const h = follow(...cases[0]); return cases[1].map((t) => { "
+        "const { v1, v2, xp, vp } = h.at(t); return [v1, v2, xp, vp]; }); })()"
+    )
+    arguments = [[pages.truck_data(truck), pier, speed, duration], times]
+    v1, v2, xp, vp = np.array(in_node(program, arguments)).T
+    assert (v2 > 0.0).all()  # the friction on the road acts backward throughout
+    taken = stiffness * xp + damping * vp + truck.friction_force
+    steps = 0.5 * (taken[1:] + taken[:-1]) * np.diff(times)
+    momentum = truck.engine_mass * v1 + truck.body_mass * v2 + PIER["mass"] * vp
+    left = truck.mass * speed - np.concatenate(([0.0], np.cumsum(steps)))
+    np.testing.assert_allclose(momentum, left, atol=2e-4 * truck.mass * speed)
+
+
+@pytest.fixture(scope="module")
+def spectra():
+    """Return refined spectra of trucks and speeds, with their bands."""
+    truck = load_truck("single-unit-8t")
+    given = [
+        {"truck": pages.truck_data(truck.loaded_to(mass)), "pier": PIER, "speed": speed / 3.6}
+        for mass, speed in ((5e3, 80.0), (8e3, 60.0), (8e3, 80.0), (8e3, 115.0), (12e3, 95.0))
+    ]
+    program = (
+        "cases[1].map((c) => { const points = coarseSpectrum(cases[0], 33, c); "
+        "for (const _ of refine(points, c)); return [points, bandsOf(points, c)]; })"
+    )
+    trucks = [truck.loaded_to(mass) for mass in (5e3, 8e3, 8e3, 8e3, 12e3)]
+    return list(zip(trucks, given, in_node(program, [RANGE, given]), strict=True))
+
+
+def peaks_at(truck, frequency, speed):
+    stiffness = stiffness_at_frequency(PIER["mass"], np.asarray(frequency))
+    return peak_reactions(truck, PIER["mass"], stiffness, 0.05, speed)
+
+
+def test_a_spectrum_is_right_between_its_points(spectra):
+    frequency = np.geomspace(RANGE["low"], RANGE["high"], 333)[1:-1]
+    for truck, given, (points, _) in spectra:
+        peaks = peaks_at(truck, frequency, given["speed"])
+        of_points = np.array([point["frequency"] for point in points])
+        assert (np.diff(of_points) > 0.0).all()
+        for body, exact in (("engine", peaks.engine), ("cargo", peaks.cargo)):
+            drawn = np.array([point[body] for point in points], dtype=float)
+            line = np.interp(np.log(frequency), np.log(of_points), drawn)
+            both = np.isfinite(line) & np.isfinite(exact)
+            np.testing.assert_allclose(line[both], exact[both], rtol=5e-3)
+            # Where a peak begins or ends, one interval of the line is left out.
+            assert np.count_nonzero(np.isfinite(line) != np.isfinite(exact)) <= 2
+
+
+def test_bands_end_where_the_peaks_are_equal(spectra):
+    found = 0
+    for truck, given, (_, bands) in spectra:
+        for band in bands:
+            middle = peaks_at(truck, math.sqrt(band["low"] * band["high"]), given["speed"])
+            governs = "cargo" if middle.cargo > middle.engine else "engine"
+            assert band["what"] == governs
+            if band["crossing"]:
+                there = peaks_at(truck, band["low"], given["speed"])
+                assert there.engine == pytest.approx(there.cargo, rel=2e-3)
+                found += 1
+    assert found >= 4
+
+
+@pytest.fixture(scope="module")
+def content():
+    return pages.page([read_truck_file("single-unit-8t")])
+
+
+def test_only_its_own_script_and_style_may_act(content):
+    (policy,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', content)
+    policy = policy.replace("&#39;", "'")
+    assert "default-src 'none'" in policy
+    assert "unsafe" not in policy
+    for tag, directive in (('script type="module"', "script-src"), ("style", "style-src")):
+        (inside,) = re.findall(rf"<{tag}>(.*?)</{tag.split()[0]}>", content, re.DOTALL)
+        digest = base64.b64encode(hashlib.sha256(inside.encode()).digest()).decode()
+        assert f"{directive} 'sha256-{digest}'" in policy
+    assert not re.findall(r"\b(?:src|srcset|style|on\w+)=", content.partition("<script")[0])
+    assert set(re.findall(r'href="([^"]*)"', content)) == {"#truck-0"}
+    assert "url(" not in content
+
+
+def test_the_page_says_how_far_to_trust_the_truck(content):
+    words = " ".join(re.sub(r"<[^>]*>", " ", content.partition("<script")[0]).split())
+    assert "Illustrative truck." in words
+    assert "may be off by ±30 %" in words
+    assert "Steep stiffness of the engine spring 150 MN/m ±30 % illustrative" in words
+    assert "from 5 t to 12 t" in words
+
+
+OWN = """\
+name = "</script><script>alert(1)</script>"
+description = "Own & <b>bold</b>"
+source = "nobody"
+status = "assumed"
+"""
+
+
+def own_truck(folder, *, name=None):
+    """Write a truck file without spreads or range of masses, and friction on the pier."""
+    text = (HOUSE / "pierimpact" / "trucks" / "single-unit-8t.toml").read_text(encoding="utf-8")
+    text = re.sub(r"(?m)^(spread|spread_source|spread_status) = .*\n", "", text)
+    text = re.sub(r"(?s)\[mass_range\].*?\n\n", "", text).replace(
+        'value = "road"', 'value = "pier"'
+    )
+    head = OWN if name is None else OWN.replace("</script><script>alert(1)</script>", name)
+    text = head + text[text.index("\n[engine_mass]") :]
+    file = folder / "own.toml"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_trucks_of_ones_own(tmp_path, capsys):
+    page = tmp_path / "page.html"
+    trucks = [*truck_names(), str(own_truck(tmp_path))]
+    assert cli.main(["page", str(page), "--truck", *trucks]) == 0
+    assert capsys.readouterr().out == f"{page}\n"
+    content = page.read_text(encoding="utf-8")
+    assert content.count("<script") == content.count("</script>") == 2
+    assert "<b>" not in content
+    (data,) = re.findall(r'id="data">(.*?)</script>', content)
+    given = json.loads(data)["trucks"]
+    assert [truck["name"] for truck in given[:2]] == truck_names()
+    assert given[2]["name"].startswith("</script>")
+    assert given[2]["frictionOnPier"]
+    for truck in given:
+        masses = truck["masses"]
+        assert truck["engine"]["mass"] < masses["low"] <= masses["first"] <= masses["high"]
+        for steps in (masses["first"] - masses["low"], masses["high"] - masses["first"]):
+            assert steps / masses["step"] == pytest.approx(round(steps / masses["step"]))
+    assert "does not say how far its parameters may be off" in content
+    assert "does not say for which masses" in content
+
+
+@pytest.mark.parametrize(
+    ("page", "trucks", "words"),
+    [
+        ("page.yaml", ["single-unit-8t"], "must be the name of an .html file, got "),
+        ("nowhere/page.html", ["single-unit-8t"], "there is no folder "),
+        ("folder.html", ["single-unit-8t"], "there is a folder of that name"),
+        ("page.html", ["single-unit-8"], "did you mean single-unit-8t?"),
+        ("page.html", ["single-unit-8t", "single-unit-8t"], "must have names of their own"),
+        ("page.html", ["none.toml"], "cannot be read"),
+    ],
+)
+def test_bad_input_is_one_line_and_leaves_all_as_it_is(page, trucks, words, tmp_path, capsys):
+    (tmp_path / "folder.html").mkdir()
+    (tmp_path / "page.html").write_text("mine", encoding="utf-8")
+    before = sorted(tmp_path.rglob("*"))
+    assert cli.main(["page", str(tmp_path / page), "--truck", *trucks]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.count("\n") == 1
+    assert words in printed.err
+    assert sorted(tmp_path.rglob("*")) == before
+    assert (tmp_path / "page.html").read_text(encoding="utf-8") == "mine"
+
+
+def test_a_page_needs_a_truck():
+    with pytest.raises(InputError, match="names of their own, got none"):
+        pages.page([])
+
+
+class Opened:
+    """The page in a browser, from a file."""
+
+    def __init__(self, driver, address):
+        self.driver, self.address = driver, address
+
+    def load(self, width=1280, height=720, *, forget=True):
+        if forget:
+            self.driver.get(self.address)
+            self.run("localStorage.clear()")
+        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        self.driver.get(self.address)
+        self.until(lambda: self.text("#sentence"))
+
+    def run(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def all(self, selector):
+        return self.driver.find_elements("css selector", selector)
+
+    def one(self, selector):
+        return self.all(selector)[0]
+
+    def text(self, selector):
+        return self.one(selector).text
+
+    def until(self, condition):
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            if found := condition():
+                return found
+            time.sleep(0.02)
+        return pytest.fail(f"waited {PATIENCE} s in vain")
+
+    def changes(self, selector, act):
+        """Act, and return the text that is there as soon as it is another."""
+        before = self.text(selector)
+        act()
+        self.until(lambda: self.text(selector) != before)
+        return self.text(selector)
+
+    def errors(self):
+        return [entry["message"] for entry in self.driver.get_log("browser")]
+
+    def skip(self):
+        self.one("#gate .plain").click()
+
+
+@pytest.fixture(scope="module")
+def opened(tmp_path_factory):
+    webdriver = pytest.importorskip("selenium.webdriver")
+    if not (CHROMIUM and DRIVER):
+        pytest.skip("no browser: apt-get install chromium chromium-driver")
+    folder = tmp_path_factory.mktemp("page")
+    file = pages.write_page(folder / "page.html", truck_names())
+    options = webdriver.ChromeOptions()
+    options.binary_location = CHROMIUM
+    for option in (*OPTIONS, f"--user-data-dir={folder / 'profile'}"):
+        options.add_argument(option)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    driver = webdriver.Chrome(
+        options=options, service=webdriver.ChromeService(executable_path=DRIVER)
+    )
+    yield Opened(driver, file.as_uri())
+    driver.quit()
+
+
+def test_the_page_asks_for_nothing_and_solves_in_the_browser(opened):
+    opened.load()
+    opened.skip()
+    arguments = [as_arguments(case) for case in CASES]
+    program = f"const {{ simulate }} = pierimpact, cases = arguments[0]; return {OUTCOMES}"
+    agree(opened.run(program, arguments))
+    asked = [
+        json.loads(entry["message"])["message"]["params"]
+        for entry in opened.driver.get_log("performance")
+        if '"Network.requestWillBeSent"' in entry["message"]
+    ]
+    # The browser's own first page is not ours.
+    ours = {each["request"]["url"] for each in asked if each["documentURL"] == opened.address}
+    assert ours == {opened.address}
+    assert opened.errors() == []
+
+
+def test_a_key_moves_the_slider_and_the_sentence(opened):
+    opened.load()
+    opened.skip()
+    slider = opened.one("#frequency")
+    assert slider.get_attribute("aria-valuetext") == "30.0 hertz"
+    assert "30.0 Hz the cargo governs: 4.88 MN" in opened.text("#sentence")
+    assert opened.text("#engine-peak") == "2.70 MN"
+    keys = {"frequency": "30.6 hertz", "speed": "81 kilometres per hour", "mass": "8.5 tonnes"}
+    for name, words in keys.items():
+        opened.run("arguments[0].focus()", opened.one(f"#{name}"))
+        key = opened.driver.switch_to.active_element.send_keys
+        opened.changes("#sentence", lambda key=key: key("\ue014"))  # arrow to the right
+        assert opened.one(f"#{name}").get_attribute("aria-valuetext") == words
+    truck = load_truck("single-unit-8t").loaded_to(8.5e3)
+    peaks = peaks_at(truck, 5.0 * 36.0 ** (91 / 180), 81.0 / 3.6)
+    assert opened.text("#cargo-peak") == f"{peaks.cargo / 1e6:.2f} MN"
+    assert opened.errors() == []
+
+
+def test_every_control_is_reached_by_tab_and_has_a_name(opened):
+    opened.load()
+    opened.skip()
+    opened.run("document.activeElement.blur()")
+    names = []
+    for _ in range(60):
+        opened.driver.switch_to.active_element.send_keys("\ue004")
+        at = opened.driver.switch_to.active_element
+        if at.tag_name == "body":
+            break
+        names.append((at.get_attribute("id"), at.accessible_name))
+        outline = at.value_of_css_property("outline-style")
+        assert outline == "solid", names[-1]
+    assert all(name for _, name in names)
+    reached = {which for which, _ in names}
+    assert {"frequency", "play", "instant", "truck", "speed", "mass", "again"} <= reached
+
+
+@pytest.mark.parametrize("width", [320, 400])
+def test_nothing_is_cut_on_a_phone(opened, width):
+    opened.load(width, 800)
+    for act in (lambda: None, opened.skip):
+        act()
+        opened.run("document.querySelectorAll('details').forEach((each) => each.open = true)")
+        assert opened.run("return document.documentElement.scrollWidth") <= width
+        cut = (
+            "return [...document.querySelectorAll('main *')].filter((each) => "
+            "!each.closest('.table, .unseen') && "
+            "each.getBoundingClientRect().right > innerWidth + 1"
+            ").map((each) => each.outerHTML.slice(0, 80))"
+        )
+        assert opened.run(cut) == []
+
+
+def test_slider_lines_and_collision_fit_on_one_screen(opened):
+    opened.load()
+    opened.all("#gate input")[0].click()
+    opened.one("#gate .main").click()
+    opened.until(lambda: opened.one("#chart").is_displayed())
+    for selector in ("#frequency", "#chart", "#picture", "#history", "#play"):
+        assert 0.0 < opened.run(
+            "return document.querySelector(arguments[0]).getBoundingClientRect().bottom", selector
+        ) <= 720.0  # fmt: skip
+
+
+LABELS = """
+function collisions() {
+  const found = [];
+  for (const svg of document.querySelectorAll("svg")) {
+    const room = svg.getBoundingClientRect();
+    const labels = [...svg.querySelectorAll("text")].map((each) =>
+      [each.textContent, each.getBoundingClientRect()]);
+    labels.forEach(([words, a], n) => {
+      if (a.left < room.left - 1 || a.right > room.right + 1) found.push(`${words} is cut`);
+      for (const [others, b] of labels.slice(0, n)) {
+        const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+        const along = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+        if (across > 1 && along > 3) found.push(`${words} on ${others}`);
+      }
+    });
+  }
+  return found;
+}
+function move(id, share) {
+  const each = document.getElementById(id), low = Number(each.min), high = Number(each.max);
+  each.value = each.options ? share : low + share * (high - low);
+  each.dispatchEvent(new Event(each.options ? "change" : "input"));
+}
+const picture = () => new Promise(requestAnimationFrame);
+const [done] = arguments, found = [];
+let count = 0;
+for (const truck of [0, 1]) {
+  move("truck", truck);
+  for (const speed of [0, 0.3, 0.55, 1]) for (const mass of [0, 1]) {
+    move("speed", speed);
+    move("mass", mass);
+    for (const frequency of [0, 0.62, 1]) {
+      move("frequency", frequency);
+      await picture();
+      await picture();
+      count += document.querySelectorAll("svg text").length > 30;
+      const here = JSON.stringify({ truck, speed, mass, frequency });
+      found.push(...collisions().map((words) => `${words}: ${here}`));
+    }
+  }
+}
+done([count, found]);
+"""
+
+
+@pytest.mark.parametrize("width", [400, 1280])
+def test_labels_keep_clear_of_each_other_at_the_ends_of_all_sliders(opened, width):
+    opened.load(width, 800)
+    opened.skip()
+    opened.driver.set_script_timeout(PATIENCE)
+    program = f"const run = async (...arguments) => {{ {LABELS} }}; run(...arguments)"
+    assert opened.driver.execute_async_script(program) == [48, []]
+
+
+def test_a_prediction_locks_before_the_lines_are_shown_and_is_remembered(opened):
+    opened.load()
+    assert not opened.one("#chart").is_displayed()
+    lock = opened.one("#gate .main")
+    assert not lock.is_enabled()
+    opened.all("#gate input")[3].click()
+    lock.click()
+    opened.until(lambda: opened.one("#chart").is_displayed())
+    assert "“What moves more must carry more.”" in opened.text("#lead")
+    for load in (lambda: None, lambda: opened.load(forget=False)):
+        load()
+        choices = opened.all("#question-0 input")
+        assert [choice.is_enabled() for choice in choices] == 4 * [False]
+        assert [choice.is_selected() for choice in choices] == [False, False, False, True]
+        assert opened.text("#question-0 .right").startswith("The engine’s grows several times over")
+        assert opened.one("#chart").is_displayed()
+    opened.one("#again").click()
+    assert not opened.one("#chart").is_displayed()
+    assert opened.all("#gate input")[3].is_enabled()
+
+
+def test_the_other_predictions_have_the_packages_answers(opened):
+    opened.load()
+    opened.skip()
+    for number, right in ((1, 1), (2, 1)):
+        opened.all(f"#question-{number} input")[right].click()
+        opened.one(f"#question-{number} .main").click()
+        assert opened.text(f"#question-{number} .verdict").startswith("As you predicted.")
+    truck = load_truck("single-unit-8t")
+    soft, stiff = (peaks_at(truck, frequency, 80.0 / 3.6).engine / 1e6 for frequency in (10, 100))
+    assert f"in the pier {soft:.2f} MN and {stiff:.2f} MN" in opened.text("#question-1 .verdict")
+    opened.one("#question-2 .buttons button").click()
+    opened.until(lambda: opened.text("#mass-value") == "12.0 t")
+    loaded = peaks_at(truck.loaded_to(12e3), 5.0 * 36.0 ** (150 / 180), 80.0 / 3.6)
+    assert opened.text("#cargo-peak") == f"{loaded.cargo / 1e6:.2f} MN"
+
+
+def test_it_works_where_nothing_is_remembered(opened):
+    forbid = "Object.defineProperty(window, 'localStorage', { get() { throw new Error('no'); } })"
+    added = opened.driver.execute_cdp_cmd(
+        "Page.addScriptToEvaluateOnNewDocument", {"source": forbid}
+    )
+    try:
+        opened.load(forget=False)
+        opened.all("#gate input")[2].click()
+        opened.one("#gate .main").click()
+        opened.until(lambda: opened.text("#lead").startswith("As you predicted."))
+        assert opened.errors() == []
+    finally:
+        opened.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+
+
+def test_the_picture_moves_and_can_be_scrubbed(opened):
+    opened.load()
+    picture = "return document.getElementById('picture').innerHTML"
+    before = opened.run(picture)
+    opened.one("#play").click()
+    opened.until(lambda: opened.run(picture) != before)
+    opened.one("#play").click()
+    assert opened.text("#play") == "Play"
+    still = opened.run(picture)
+    opened.one("#instant").send_keys("\ue011")  # home
+    opened.until(lambda: opened.text("#instant-value") == "0.0 ms")
+    assert opened.run(picture) != still
+    assert "first touch" in opened.text("#picture-words")
+    opened.all("#moments button")[3].click()
+    assert "the cargo is in contact" in opened.text("#picture-words")
+    assert "R = 4.88 MN" in opened.text("#picture")
