@@ -56,7 +56,7 @@ ANSWERS = {
     ),
     "pier": (
         lambda z, EI, GA: 1e6 / (z**3 / (3.0 * EI) + z / GA),
-        lambda H, m, z: m * (H / z) ** 2 * H / 3.0,
+        lambda D, rho, H, z: rho * math.pi * D**2 / 4.0 * (H / z) ** 2 * H / 3.0,
         lambda k, m: math.sqrt(k * 1e6 / (m * 1e3)) / (2.0 * math.pi),
         "2 times as high",
     ),

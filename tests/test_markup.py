@@ -60,6 +60,13 @@ def test_in_a_notebook_opened_again_the_still_shows_and_no_word_on_what_is_missi
     assert shows(page, "warned")
 
 
+def test_a_widget_that_lost_its_kernel_gives_way_to_its_still():
+    lost = LIVE.replace("pierimpact-live", "pierimpact-live jupyter-widgets-disconnected")
+    page = lab([lost, STILL])
+    assert shows(page, "still")
+    assert not shows(page, "live")
+
+
 def test_one_cell_may_live_while_another_is_dead():
     page = lab([LIVE, STILL.replace("still</div>", "still of the living</div>")], [GONE, STILL])
     assert shows(page, "live")

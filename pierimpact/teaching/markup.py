@@ -21,14 +21,16 @@ _WARNED = f"border-left:4px solid {style.ORANGE};background:{GROUND}"
 FRAME = f"3px solid {style.GREY}"
 
 # Live widgets and their still stand side by side in a notebook's output; one of them shows. In
-# Voilà that is the widgets, in JupyterLab too as long as they live. A notebook opened again has
-# none, but a word of JupyterLab on what is missing, which bears no type as other outputs do: the
-# still shows instead. In a page exported from the notebook, where widgets are dead, it does, too.
+# Voilà that is the widgets, in JupyterLab too as long as they have their kernel. A notebook opened
+# again has none, but a word of JupyterLab on what is missing, which bears no type as other outputs
+# do: the still shows instead. In a page made from the notebook, where widgets are dead, it does,
+# too.
 _LIVE, _STILL = "pierimpact-live", "pierimpact-still"
+_LIVES = f":has(.{_LIVE}:not(.jupyter-widgets-disconnected))"
 _STYLE = (
-    f"<style>.jp-NotebookPanel .jp-OutputArea:has(.{_LIVE}) .{_STILL}, "
+    f"<style>.jp-NotebookPanel .jp-OutputArea{_LIVES} .{_STILL}, "
     f"body[data-voila] .{_STILL}, "
-    f".jp-NotebookPanel .jp-OutputArea:has(.{_STILL}):not(:has(.{_LIVE})) "
+    f".jp-NotebookPanel .jp-OutputArea:has(.{_STILL}):not({_LIVES}) "
     ".jp-OutputArea-output:not([data-mime-type]) {display:none} "
     f"body.jp-Notebook:not([data-voila]) .{_LIVE} {{display:none}}</style>"
 )

@@ -62,13 +62,14 @@ def _cantilever(numbers: Numbers) -> Question:
 
 
 def _leaning(numbers: Numbers) -> Question:
-    mass, height = numbers.between(1300, 1900, 100), numbers.between(40, 60) / 10
+    diameter, height = numbers.between(8, 12) / 10, numbers.between(40, 60) / 10
     struck = numbers.between(10, 16) / 10
+    mass = 2400.0 * math.pi * diameter**2 / 4.0
     answer = mass * height**3 / (3.0 * struck**2)
     return Question(
-        words=f"A stiff column stands on a hinge; a soft spring at its top, {height:g} m up, keeps "
-        "it upright. It stays straight when it is struck, so that φ = z/z_n. Its mass is "
-        f"{mass} kg/m, and z_n = {struck:g} m. What is m_p?",
+        words=f"A stiff round column, {diameter:g} m thick, of concrete with 2400 kg/m³, stands on "
+        f"a hinge; a soft spring at its top, {height:g} m up, keeps it upright. It stays straight "
+        f"when it is struck, so that φ = z/z_n, with z_n = {struck:g} m. What is m_p?",
         dimension="mass",
         answer=answer,
         mistakes=(
@@ -78,10 +79,12 @@ def _leaning(numbers: Numbers) -> Question:
                 mass * struck / 3.0, "The column above the impact moves too: integrate to the top."
             ),
             Mistake(mass * height / 3.0, "φ is 1 at the impact, at z_n, not at the top."),
+            Mistake(4.0 * answer, "A diameter taken for a radius: the area is π D²/4."),
         ),
         start="Put φ = z/z_n into Eq. 1 and integrate from the hinge to the top.",
-        solution=f"m_p = m̄ ∫ (z/z_n)² dz = m̄ H³/(3 z_n²) = {mass} kg/m × ({height:g} m)³ / "
-        f"(3 × ({struck:g} m)²) = {answer:.0f} kg",
+        solution=f"m̄ = 2400 × π × {diameter:g}²/4 = {mass:.1f} kg/m; m_p = m̄ ∫ (z/z_n)² dz = "
+        f"m̄ H³/(3 z_n²) = {mass:.1f} kg/m × ({height:g} m)³ / (3 × ({struck:g} m)²) = "
+        f"{answer:.0f} kg",
         reason="Several times the mass of the column: m_p measures inertia at the impact.",
     )
 
