@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.collision.history import CollisionHistory, Peak
-from pierimpact.plots.schematic import Frame
 from pierimpact.plots.style import BODIES
 from pierimpact.symbols import SYMBOLS
 from pierimpact.teaching import explorer_data, markup
@@ -35,6 +34,11 @@ class Readout(NamedTuple):
 def force(value: float | None) -> str:
     """Return a force as it is printed, "none" where there is none."""
     return "none" if value is None or math.isnan(value) else str(printed(value, "force", "SI"))
+
+
+def megawords(value: float) -> str:
+    """Return a force in meganewtons, as the charts have it [N]."""
+    return f"{1e-6 * value:.2f} MN"
 
 
 def reaction(peak: Peak | None) -> str:
@@ -87,15 +91,6 @@ def outcome(scenario: Scenario) -> str:
     if history.governs == "engine" and name != ENGINE_PEAK:
         governs = "The first is the larger."
     return f"{words}; cargo peak {peak_at(cargo)}. {governs}"
-
-
-def instant(frame: Frame, phase: str) -> str:
-    """Return the time, phase and reaction at one instant of a collision, as HTML."""
-    return paragraph(
-        f'<b style="font-size:16px;padding-right:14px">{1e3 * frame.time:.1f} ms</b>'
-        f"{html.escape(phase)} R = {force(frame.reaction)}.",
-        "font-size:14px",
-    )
 
 
 def collision(scenario: Scenario) -> Readout:
