@@ -1,6 +1,5 @@
 """What the drawing functions put on the axes is what they were given."""
 
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex

@@ -43,7 +43,11 @@ export class Control {
         ? make("input", { type: "text", className: "value", id: `${id}-value`, autocomplete: "off" })
         : make("span", { className: "value", id: `${id}-value` });
       this.box.setAttribute(...(units ? ["aria-label", `${variable.label}, to type`] : ["aria-hidden", "true"]));
-      if (units) this.box.onchange = () => this.typed(this.box.value);
+      if (units) {
+        this.box.onchange = () => this.typed(this.box.value);
+        // JupyterLab keeps the Enter key from what the browser does by itself.
+        this.box.onkeydown = ({ key }) => { if (key === "Enter") this.typed(this.box.value); };
+      }
       this.element.append(this.box, this.input);
     }
     this.set(value);
