@@ -130,7 +130,7 @@ def shape(scenario: Scenario) -> Readout:
 
 def amplification(scenario: Scenario, values: dict[str, float]) -> Readout:
     """Return the steps from contact speed to reaction beside the full model’s."""
-    heads = ("", "contact speed", "β", "μ", "e", "S", "two degrees of freedom", "full model")
+    heads = ("body", "contact speed", "β", "μ", "e", "S", "two degrees of freedom", "full model")
     rows, words = [], []
     for i, (body, peak) in enumerate(scenario.history.peaks.items(), 1):
         speed, reduced = printed(values[f"v{i}"], "speed", "SI"), values[f"R{i}"]

@@ -83,7 +83,8 @@ export class Control {
     const shown = this.shown();
     this.input.value = this.notch(value);
     this.input.setAttribute("aria-valuetext", `${shown} ${spoken}`.trim());
-    this.box[this.variable.units ? "value" : "textContent"] = `${shown} ${unit}`.trim();
+    this.words = `${shown} ${unit}`.trim();
+    this.box[this.variable.units ? "value" : "textContent"] = this.words;
   }
 
   /** The value in figures, as exact as the slider, or as what was typed to four figures. */
@@ -101,6 +102,7 @@ export class Control {
   }
 
   typed(text) {
+    if (text === this.words && !this.error) return; // the value is more exact than its figures
     const { label, unit, units, size, low, high } = this.variable;
     const [, figures, given] = text.match(TYPED) ?? [];
     const own = figures === undefined ? undefined : given === "" ? size : units[given];
