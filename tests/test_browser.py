@@ -1,6 +1,7 @@
 """The explorers in a real browser: JupyterLab on loopback, headless Chromium, sliders that move."""
 
 import contextlib
+import json
 import math
 import os
 import shutil
@@ -8,7 +9,9 @@ import socket
 import subprocess
 import sys
 import time
+from importlib.util import find_spec
 from pathlib import Path
+from urllib.request import Request, urlopen
 
 import pytest
 
@@ -331,6 +334,59 @@ def test_no_error_reached_the_notebook(page):
     page.holds_no_error()
 
 
+AXE = Path(find_spec("axe_core_python").origin).parent / "axe.min.js"
+FAULTS = """
+const [scope, done] = arguments;
+axe.run(scope, { resultTypes: ["violations"] }).then(({ violations }) => done(violations
+  .filter(({ impact }) => impact === "serious" || impact === "critical")
+  .flatMap(({ help, nodes }) => nodes.map(({ html }) => `${help}: ${html.slice(0, 200)}`))));
+"""
+
+
+def faults(browser, scope="body"):
+    """Return what hinders those who do not see or point, as axe-core finds it."""
+    browser.set_script_timeout(PATIENCE)
+    browser.execute_script(AXE.read_text(encoding="utf-8"))
+    return browser.execute_async_script(FAULTS, scope)
+
+
+# The ground and the text of JupyterLab's themes.
+THEMES = {"light": ("true", "#fff", "#000000de"), "dark": ("false", "#111", "#ffffffde")}
+PUT_ON = """
+const [light, ground, text] = arguments[0];
+document.body.dataset.jpThemeLight = light;
+document.body.style.setProperty("--jp-layout-color0", ground);
+document.body.style.setProperty("--jp-ui-font-color1", text);
+"""
+
+
+@pytest.mark.parametrize("theme", ["dark", "light"])
+def test_nothing_hinders_those_who_do_not_see_or_point(page, theme):
+    page.browser.execute_script(PUT_ON, THEMES[theme])
+    assert faults(page.browser, ".pierimpact-live") == []
+
+
+def test_a_saved_notebook_shows_its_explorer_without_a_kernel(browser, server, page):
+    """After all that uses the explorer: its kernel is shut down."""
+    page.all("body")[0].send_keys(webdriver.Keys.CONTROL, "s")
+    until(lambda: not page.all(".jp-mod-dirty"))
+    headers = {"Authorization": f"token {TOKEN}"}
+    with urlopen(Request(f"{server}/api/sessions", headers=headers)) as answer:
+        (session,) = json.load(answer)
+    urlopen(Request(f"{server}/api/sessions/{session['id']}", headers=headers, method="DELETE"))
+    browser.get(f"{server}/lab/tree/explorer.ipynb?token={TOKEN}&reset")
+    frame = page.one(".pierimpact-still iframe")
+    until(frame.is_displayed)
+    assert "not found" not in page.one(".jp-Notebook").text
+    browser.switch_to.frame(frame)
+    try:
+        until(lambda: mega(Scenario().history.engine_peak) in page.readout())
+        page.press("speed", webdriver.Keys.ARROW_LEFT, 10)
+        until(lambda: mega(Scenario(speed=70.0 / 3.6).history.engine_peak) in page.readout())
+    finally:
+        browser.switch_to.default_content()
+
+
 @pytest.mark.parametrize("name", LESSONS)
 def test_a_lesson_runs_and_its_exercises_answer(browser, server, name):
     lesson = Lesson(browser, server, name)
@@ -366,3 +422,14 @@ def test_voila_serves_the_explorer_without_code(browser, tmp_path):
         history = Scenario(speed=70.0 / 3.6).history
         until(lambda: mega(history.cargo_peak) in app.readout())
         app.holds_no_error()
+        assert faults(browser) == []
+        size = {"width": 1280, "height": 720, "deviceScaleFactor": 1, "mobile": False}
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        try:
+            bottoms = (
+                "return [...document.querySelectorAll('.aligned, .chart, .picture, .player')]"
+                ".map((each) => each.getBoundingClientRect().bottom)"
+            )
+            until(lambda: max(browser.execute_script(bottoms)) <= 720.0)
+        finally:
+            browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})

@@ -1,6 +1,7 @@
 """The page without Python: its solver against the package's, and the page in a real browser."""
 
 import base64
+import dataclasses
 import hashlib
 import json
 import math
@@ -14,11 +15,15 @@ import numpy as np
 import pytest
 from generated_collisions import HARD, collisions, side_by_side
 
-from pierimpact import cli, load_truck, peak_reactions
+from pierimpact import cli, load_truck, peak_reactions, simulate
 from pierimpact.checks import InputError
+from pierimpact.collision.parameters import Collision
 from pierimpact.files.trucks import read_truck_file, truck_names
 from pierimpact.pier.equivalent import stiffness_at_frequency
+from pierimpact.pier.unit_force import BY_ENDS
 from pierimpact.teaching import page as pages
+from pierimpact.teaching.readouts import ENGINE_PEAK, first_peak_name
+from pierimpact.teaching.scenario import Scenario
 
 HOUSE = Path(__file__).parents[1]
 MODULES = HOUSE / "templates" / "page"
@@ -54,8 +59,9 @@ def in_node(program, value):
         f"import {{ {names} }} from '{(MODULES / name).as_uri()}.mjs';\n"
         for names, name in (
             ("simulate", "model"),
-            ("bandsOf, coarseSpectrum, refine", "spectrum"),
-            ("follow", "history"),
+            ("bandsOf, coarseSpectrum, isEnginePeak, refine", "spectrum"),
+            ("follow, energyShares", "history"),
+            ("pierOf", "column"),
         )
     )
     reads = "import { readFileSync } from 'node:fs'; const cases = JSON.parse(readFileSync(0));\n"
@@ -94,6 +100,72 @@ def agree(outcomes):
 
 def test_the_solver_finds_the_packages_peaks_and_contacts():
     agree(in_node(OUTCOMES, [as_arguments(case) for case in CASES]))
+
+
+def test_the_engines_peak_is_what_the_package_calls_so():
+    slow = {"pier_mass": 8e3, "pier_frequency": 30.0}
+    cases = [Scenario(**(slow | {"pier_frequency": f})).collision for f in (2.0, 3.0, 3.5, 100.0)]
+    cases += [Scenario(**slow, speed=v / 3.6).collision for v in (35.0, 55.0, 60.0)] + CASES[:100]
+    found = in_node(f"{OUTCOMES}.map(isEnginePeak)", [as_arguments(case) for case in cases])
+    names = [first_peak_name(simulate(case.truck, case.pier, case.speed)) for case in cases]
+    assert found == [name == ENGINE_PEAK for name in names]
+    assert not all(found)
+
+
+def test_a_column_is_the_packages_pier():
+    random = np.random.default_rng(5)
+    columns = [
+        {
+            "height": float(random.uniform(2.0, 15.0)),
+            "diameter": float(random.uniform(0.4, 2.5)),
+            "place": float(random.uniform(0.05, 0.95)),
+            "base": base,
+            "top": top,
+        }
+        for base, top in BY_ENDS
+        for _ in range(5)
+    ]
+    given, expected = [], []
+    for each in columns:
+        impact = each["place"] * each["height"]
+        scenario = Scenario(
+            column_height=each["height"], column_diameter=each["diameter"], impact_height=impact,
+            base=each["base"], top=each["top"],
+        )  # fmt: skip
+        material = scenario.column.values
+        given.append(
+            each
+            | {
+                "impact": impact,
+                "elasticModulus": material["E"],
+                "shearModulus": material["kappa"] * material["G"],
+                "density": material["rho"],
+            }
+        )
+        expected.append((scenario.pier.stiffness, scenario.pier.mass))
+    found = in_node("cases.map(pierOf).map(({ stiffness, mass }) => [stiffness, mass])", given)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+@pytest.mark.parametrize("on", ["road", "pier"])
+def test_the_energy_is_where_the_package_has_it(on):
+    truck = dataclasses.replace(load_truck("single-unit-8t"), friction_force=2e4, friction_on=on)
+    case = Collision(truck, Scenario(pier_mass=8e3, pier_frequency=30.0).pier, 22.0)
+    program = (
+        "(([truck, pier, speed]) => energyShares("
+        "follow(truck, pier, speed, 0.15).rows, truck, pier, speed))(cases[0])"
+    )
+    shares = in_node(program, [as_arguments(case)])
+    time = np.array([share["time"] for share in shares])
+    history = simulate(truck, case.pier, 22.0, 0.15)
+    both = history.time <= time[-1]
+    for ours, theirs in (
+        ("motion", "kinetic"), ("pier", "pier_elastic"), ("springs", "truck_elastic"),
+        ("crush", "crush"), ("friction", "friction"), ("damping", "damping"),
+    ):  # fmt: skip
+        drawn = np.interp(history.time[both], time, [share[ours] for share in shares])
+        expected = getattr(history.energy, theirs)[both] / case.energy
+        np.testing.assert_allclose(drawn, expected, atol=4e-3)
 
 
 def test_momentum_is_kept_along_the_history():
@@ -530,6 +602,7 @@ def test_it_works_where_nothing_is_remembered(opened):
 def test_the_picture_moves_and_can_be_scrubbed(opened):
     opened.load()
     picture = "return document.getElementById('picture').innerHTML"
+    opened.one("#instant").send_keys("\ue011")  # home, so that it does not end meanwhile
     before = opened.run(picture)
     opened.one("#play").click()
     opened.until(lambda: opened.run(picture) != before)

@@ -17,7 +17,7 @@ from pierimpact.teaching.readouts import outcome
 from pierimpact.teaching.scenario import REFERENCE, Scenario
 from pierimpact.teaching.scenario_files import case_text, truck_text
 from pierimpact.teaching.variables import CRUSH, VARIABLES
-from pierimpact.units import parse, printed
+from pierimpact.units import parse
 
 EXPLORERS = ("collision", "pier", "reduction", "spectra", "design", "sensitivity", "full")
 CALCULATED = ("pier", "reduction", "design", "sensitivity")
@@ -87,7 +87,7 @@ def test_the_readout_of_the_pier():
     scenario = explorer.scenario()
     cells, words = numbers_of(explorer)
     mass = 2400.0 * 0.25 * np.pi * 0.914**2 * 5.0
-    assert cells["mass per length times height"] == str(printed(mass, "mass", "SI"))
+    assert cells["mass per length times height"] == f"{mass / 1e3:.4g} t"
     pier = scenario.pier
     shares = [int(text) for text in re.findall(r"(\d+)%", words)]
     rigidity = 25e9 / 2.4 * 0.9 * 0.25 * np.pi * 0.914**2  # κGA
@@ -104,7 +104,7 @@ def test_the_design_over_the_full_model_in_words():
     _, words = numbers_of(explorer)
     assert f"{ratio:.2f} times the full model" in words
     assert f"The {design.governs} governs." in words
-    assert str(printed(design.reaction, "force", "SI")) in words
+    assert f"{design.reaction / 1e6:.2f} MN" in words
 
 
 def test_no_contact_is_said_in_a_sentence():

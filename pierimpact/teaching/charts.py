@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pierimpact.plots.style import BODIES, round_out, round_up
 from pierimpact.symbols import Symbol
 from pierimpact.teaching import explorer_data
-from pierimpact.teaching.readouts import megawords
+from pierimpact.teaching.readouts import force
 from pierimpact.teaching.scenario import Scenario
 
 Array = NDArray[np.float64]
@@ -101,10 +101,9 @@ def amplification(scenario: Scenario, values: dict[str, float]) -> list[Chart]:
 def reactions(scenario: Scenario) -> list[Chart]:
     """Return the reactions and the forces of codes side by side."""
     bars = explorer_data.bars(scenario)
-    largest = max(bar.value for bar in bars if bar.value is not None)
     rows = []
     for bar in bars:
-        words = "none" if bar.value is None else megawords(bar.value)
+        words = force(bar.value)
         rows.append(
             {
                 "name": bar.name,
@@ -112,7 +111,7 @@ def reactions(scenario: Scenario) -> list[Chart]:
                 "words": f"{words}: {bar.remark}" if bar.remark else words,
             }
         )
-    axis = _axis("Force [MN]", 0.0, 1e-6 * round_up(1.8 * largest))  # room for the words
+    axis = _axis("Force [MN]", 0.0, 1e-6 * round_up(max(bar.value or 0.0 for bar in bars)))
     return [{"kind": "bars", "title": "", "x": axis, "rows": rows}]
 
 

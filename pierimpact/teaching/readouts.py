@@ -32,13 +32,13 @@ class Readout(NamedTuple):
 
 
 def force(value: float | None) -> str:
-    """Return a force as it is printed, "none" where there is none."""
-    return "none" if value is None or math.isnan(value) else str(printed(value, "force", "SI"))
+    """Return a force in meganewtons, as in all explorers; "none" where there is none [N]."""
+    return "none" if value is None or math.isnan(value) else f"{1e-6 * value:.2f} MN"
 
 
-def megawords(value: float) -> str:
-    """Return a force in meganewtons, as the charts have it [N]."""
-    return f"{1e-6 * value:.2f} MN"
+def mass(value: float) -> str:
+    """Return a mass in tonnes, as in all explorers [kg]."""
+    return f"{1e-3 * value:.4g} t"
 
 
 def reaction(peak: Peak | None) -> str:
@@ -124,7 +124,7 @@ def shape(scenario: Scenario) -> Readout:
         _named("kp", pier.stiffness, ", Eq. 3"),
         _named("mp", pier.mass, ", Eq. 1"),
         _named("fp", pier.frequency, ", √(k_p/m_p)/2π"),
-        ("Whole column", printed(whole, "mass", "SI"), "mass per length times height"),
+        ("Whole column", mass(whole), "mass per length times height"),
     )
 
 
@@ -180,7 +180,7 @@ def influence(scenario: Scenario, changes: dict[str, NDArray[np.float64] | None]
 def _named(name: str, value: float, remark: str = "") -> tuple[str, object, str]:
     """Return the symbol, the value and the meaning of one of `SYMBOLS`."""
     symbol = SYMBOLS[name]
-    shown = printed(value, symbol.quantity, "SI")
+    shown = mass(value) if symbol.quantity == "mass" else printed(value, symbol.quantity, "SI")
     return markup.symbol(symbol.latex), shown, symbol.meaning + remark
 
 

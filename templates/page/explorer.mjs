@@ -37,7 +37,7 @@ const skeleton = (id) => `
 <section class="collision" aria-label="The collision in slow motion">
   <figure>
     <svg class="picture" id="${id}picture" role="img" aria-labelledby="${id}picture-words"></svg>
-    <figcaption><span id="${id}picture-words"></span> <span class="quiet">Pier’s movement drawn ${EXAGGERATION} times too large.</span></figcaption>
+    <figcaption><span id="${id}picture-words"></span> <span class="quiet">Pier’s movement ${EXAGGERATION} × too large.</span></figcaption>
   </figure>
   <figure>
     <svg class="history" id="${id}history" role="img" aria-labelledby="${id}history-words"></svg>

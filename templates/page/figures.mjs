@@ -1,7 +1,8 @@
 // Charts of what is calculated elsewhere: lines, and bars in rows.
-import { apart, element, path, roundUp, tag, text, ticks } from "./chart.mjs";
+import { element, path, roundUp, tag, text, ticks } from "./chart.mjs";
 
-const TOP = 30, RIGHT = 16, BOTTOM = 42, BAR = 24; // margins and height of a row [px]
+const TOP = 30, RIGHT = 16, BOTTOM = 42, BAR = 24, ROW = 17; // margins and heights of rows [px]
+const LETTER = 7; // width of one, rather more than less [px]
 
 function scale({ low, high, log }, first, last) {
   const of = log ? Math.log : (value) => value;
@@ -21,16 +22,18 @@ function marksOf({ low, high, log }, most) {
 
 const written = (value) => String(Number(value.toPrecision(6))).replace("-", "−");
 
-/** The key of the lines, above the chart at the right. */
-function key(curves, right) {
-  const items = [];
-  for (const { name, style } of curves.filter((curve) => curve.name).toReversed()) {
-    right -= 6.6 * name.length;
-    items.push(text(name, right, 14, "key", "start"),
-      element("line", { x1: right - 24, x2: right - 5, y1: 10, y2: 10, class: `curve ${style}` }));
-    right -= 34;
+/** The title and the key of the lines, above the chart: in as many rows as they need. */
+function heading(title, curves, right) {
+  const items = [text(title, 4, 14, "title", "start")];
+  let x = 22 + 8 * title.length, y = 14;
+  for (const { name, style } of curves.filter((curve) => curve.name)) {
+    const width = 27 + 7 * name.length;
+    if (x + width > right && x > 4) [x, y] = [4, y + ROW];
+    items.push(element("line", { x1: x, x2: x + 19, y1: y - 4, y2: y - 4, class: `curve ${style}` }),
+      text(name, x + 24, y, "key", "start"));
+    x += width + 12;
   }
-  return items;
+  return { items, top: TOP + y - 14 };
 }
 
 /**
@@ -43,8 +46,8 @@ function key(curves, right) {
 export function drawLines(svg, { title, x, y, curves, level, here }) {
   const { width, height } = svg.viewBox.baseVal;
   const left = 46, right = width - RIGHT, foot = height - BOTTOM;
-  const X = scale(x, left, right), Y = scale(y, foot, TOP);
-  const drawing = [text(title, 4, 14, "title", "start"), ...key(curves, right)];
+  const { items: drawing, top } = heading(title, curves, right);
+  const X = scale(x, left, right), Y = scale(y, foot, top);
   for (const value of marksOf(y, 6)) {
     drawing.push(element("line", { x1: left, x2: right, y1: Y(value), y2: Y(value), class: value ? "grid" : "axis" }),
       text(written(value), left - 6, Y(value) + 4, "tick", "end"));
@@ -53,9 +56,9 @@ export function drawLines(svg, { title, x, y, curves, level, here }) {
     drawing.push(element("line", { x1: X(value), x2: X(value), y1: foot, y2: foot + 4, class: "axis" }),
       text(written(value), X(value), foot + 17, "tick"));
   }
-  drawing.push(text(x.label, 0.5 * (left + right), foot + 35, "label"), turned(y.label, 12, 0.5 * (TOP + foot)));
-  const plot = element("svg", { x: left, y: TOP - 4, width: right - left, height: foot - TOP + 4,
-    viewBox: `${left} ${TOP - 4} ${right - left} ${foot - TOP + 4}`, class: "plot" });
+  drawing.push(text(x.label, 0.5 * (left + right), foot + 35, "label"), turned(y.label, 12, 0.5 * (top + foot)));
+  const plot = element("svg", { x: left, y: top - 4, width: right - left, height: foot - top + 4,
+    viewBox: `${left} ${top - 4} ${right - left} ${foot - top + 4}`, class: "plot" });
   for (const curve of curves) {
     const places = curve.x.map((value, n) => (curve.y[n] === null || value === null ? null : [X(value), Y(curve.y[n])]));
     if (curve.filled) {
@@ -69,13 +72,13 @@ export function drawLines(svg, { title, x, y, curves, level, here }) {
   if (level) {
     const ly = Y(level.y);
     drawing.push(element("line", { x1: left, x2: right, y1: ly, y2: ly, class: "drop" }),
-      tag(level.words, right - 4, ly > TOP + 24 ? ly - 6 : ly + 16, "label", "end"));
+      tag(level.words, right - 4, ly > top + 24 ? ly - 6 : ly + 16, "label", "end"));
   }
   if (here) {
     const at = X(here.x), late = at > left + 0.6 * (right - left), up = Y(here.y);
-    drawing.push(element("line", { x1: at, x2: at, y1: TOP, y2: foot, class: "here" }),
+    drawing.push(element("line", { x1: at, x2: at, y1: top, y2: foot, class: "here" }),
       element("circle", { cx: at, cy: up, r: 5, class: `mark ${here.style}` }),
-      tag(here.words, at + (late ? -11 : 11), apart([up - 9, TOP], TOP + 14, foot - 6)[0], "value", late ? "end" : "start"));
+      tag(here.words, at + (late ? -11 : 11), Math.min(Math.max(up - 9, top + 14), foot - 6), "value", late ? "end" : "start"));
   }
   svg.replaceChildren(...drawing);
 }
@@ -89,6 +92,18 @@ export function barsHeight({ rows }) {
   return TOP + BAR * rows.length + BOTTOM;
 }
 
+/** The axis long enough for the words beside the bars, and these: without remark where room is short. */
+function withRoom(x, rows, room) {
+  if (x.low < 0) return [x, rows.map(({ words }) => words)];
+  const longest = Math.max(...rows.map(({ words }) => words.length));
+  const said = rows.map(({ words }) => (LETTER * longest + 20 < 0.75 * room ? words : words.split(":")[0]));
+  const ends = rows.map(({ bars }, n) => {
+    const free = room - LETTER * said[n].length - 20;
+    return (Math.max(...bars.map(({ value }) => value ?? 0)) * room) / Math.max(free, 0.25 * room);
+  });
+  return [{ ...x, high: roundUp(Math.max(...ends)) }, said];
+}
+
 /**
  * Draw bars in rows.
  *
@@ -97,24 +112,25 @@ export function barsHeight({ rows }) {
  */
 export function drawBars(svg, { title, x, rows, key: names = [], empty = "" }) {
   const { width, height } = svg.viewBox.baseVal;
-  const left = Math.min(12 + 6.9 * Math.max(...rows.map(({ name }) => name.length)), 0.52 * width);
-  const right = width - RIGHT, foot = height - BOTTOM, X = scale(x, left, right);
-  const drawing = [text(title, 4, 14, "title", "start"), ...key(names, right)];
-  for (const value of marksOf(x, (right - left) / 60)) {
+  const left = 12 + LETTER * Math.max(...rows.map(({ name }) => name.length));
+  const right = width - RIGHT, foot = height - BOTTOM, room = right - left;
+  const [axis, said] = withRoom(x, rows, room), X = scale(axis, left, right);
+  const { items: drawing } = heading(title, names, right);
+  for (const value of marksOf(axis, room / 60)) {
     drawing.push(element("line", { x1: X(value), x2: X(value), y1: TOP, y2: foot, class: value ? "grid" : "axis" }),
       text(`${written(value)}${x.unit ?? ""}`, X(value), foot + 17, "tick"));
   }
   drawing.push(text(x.label, 0.5 * (left + right), foot + 35, "label"));
   const words = [];
-  rows.forEach(({ name, bars, words: said }, n) => {
+  rows.forEach(({ name, bars }, n) => {
     const y = TOP + n * BAR, middle = y + 0.5 * BAR + 4;
-    drawing.push(text(name, left - 7, middle, "name", "end"));
+    drawing.push(text(name, left - 7, middle, "row-name", "end"));
     for (const { value, style } of bars) {
       if (value === null) continue;
       const [a, b] = [X(0), X(value)].sort((p, q) => p - q);
       drawing.push(element("rect", { x: a, y: y + 4, width: b - a, height: BAR - 8, class: `bar ${style}` }));
     }
-    if (said) words.push(tag(said, Math.max(X(0), ...bars.map(({ value }) => X(value ?? 0))) + 6, middle, "value", "start"));
+    if (said[n]) words.push(tag(said[n], Math.max(X(0), ...bars.map(({ value }) => X(value ?? 0))) + 6, middle, "value", "start"));
   });
   if (empty) words.push(text(empty, 0.5 * (left + right), 0.5 * (TOP + foot), "label"));
   svg.replaceChildren(...drawing, ...words);
