@@ -3,6 +3,7 @@
 import base64
 import dataclasses
 import hashlib
+import html
 import json
 import math
 import re
@@ -15,7 +16,7 @@ import numpy as np
 import pytest
 from generated_collisions import HARD, collisions, side_by_side
 
-from pierimpact import cli, load_truck, peak_reactions, simulate
+from pierimpact import cli, load_truck, peak_reactions, simulate, widgets
 from pierimpact.checks import InputError
 from pierimpact.collision.parameters import Collision
 from pierimpact.files.trucks import read_truck_file, truck_names
@@ -24,6 +25,7 @@ from pierimpact.pier.unit_force import BY_ENDS
 from pierimpact.teaching import page as pages
 from pierimpact.teaching.readouts import ENGINE_PEAK, first_peak_name
 from pierimpact.teaching.scenario import Scenario
+from pierimpact.teaching.variables import VARIABLES
 
 HOUSE = Path(__file__).parents[1]
 MODULES = HOUSE / "templates" / "page"
@@ -536,6 +538,46 @@ for (const truck of [0, 1]) {
 }
 done([count, found]);
 """
+
+
+STILL = """
+for (const slider of document.querySelectorAll(".slider input[type=range]")) {
+  const before = slider.value;
+  for (const share of [0, 0.5, 1]) {
+    slider.value = share * slider.max;
+    slider.dispatchEvent(new Event("input"));
+    await picture();
+    await picture();
+    count += 1;
+    found.push(...collisions().map((words) => `${words}: ${slider.id} ${share}`));
+  }
+  slider.value = before;
+  slider.dispatchEvent(new Event("input"));
+}
+found.push(...collisions());
+done([count, found]);
+"""
+
+
+@pytest.mark.parametrize("name", ["collision", "spectra", "full", "pier", "reduction", "design"])
+def test_labels_keep_clear_of_each_other_in_a_still(opened, tmp_path, name):
+    explorer = getattr(widgets, name)()
+    page = tmp_path / "still.html"
+    inside = html.unescape(re.search('srcdoc="([^"]*)"', explorer.still)[1])
+    page.write_text(inside, encoding="utf-8")
+    sliders = 0 if "charts" in explorer.widget.contents else 3
+    numbers = [name for name in explorer.controls if not VARIABLES[name].choices]
+    opened.driver.set_script_timeout(PATIENCE)
+    head = LABELS.partition("for (const truck")[0]
+    program = f"const run = async (...arguments) => {{ {head}{STILL} }}; run(...arguments)"
+    for width in (400, 850, 1240):
+        size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+        opened.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        opened.driver.get(page.as_uri())
+        opened.until(lambda: opened.all("svg[role=img] text"))
+        outcome = opened.driver.execute_async_script(program)
+        assert outcome == [sliders * len(numbers), []]
+    assert opened.errors() == []
 
 
 @pytest.mark.parametrize("width", [400, 1280])

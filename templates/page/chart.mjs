@@ -272,11 +272,11 @@ export function drawEnergy(svg, { shares, end }) {
     below = above;
   }
   for (const name of Object.keys(known[0]).slice(1).reverse()) {
-    x -= 6.3 * name.length;
+    x -= 7 * name.length;
     drawing.push(text(name, x, 14, "key", "start"), element("rect", { x: x - 12, y: 5, width: 9, height: 9, class: `share ${name}` }));
     x -= 19;
   }
-  for (const share of [0, 0.5, 1]) drawing.push(text(`${100 * share} %`, left - 5, Y(share) + 4, "tick", "end"));
+  for (const share of [0, 0.5, 1]) drawing.push(text(`${100 * share}%`, left - 5, Y(share) + 4, "tick", "end"));
   svg.replaceChildren(...drawing, element("g", { class: "instant" }));
 }
 

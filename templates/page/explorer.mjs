@@ -240,15 +240,17 @@ export class Explorer {
       if (!control.error && !this.#refused()) control.set(this.#onShow(name));
     }
     if (byHand) this.told(this.values);
-    this.#renewAll();
+    if (!this.#renewAll()) return;
     this.#showSpectra();
     this.#showCollision();
   }
 
+  /** Calculate all anew; return whether there is something to calculate. */
   #renewAll() {
-    if (!this.#accepted()) return;
+    if (!this.#accepted()) return false;
     this.#renewSpectra();
     this.#follow();
+    return true;
   }
 
   #refused() {
@@ -307,7 +309,7 @@ export class Explorer {
 
   /** Draw all anew in the room that there is now. */
   showAll() {
-    if (!this.history || !this.frame.clientWidth) return;
+    if (!this.history || !this.frame.clientWidth || this.#refused()) return;
     for (const name of ["chart", "history", "energy"]) if (this.$(name).clientWidth) fit(this.$(name));
     this.#showSpectra();
     this.#showCollision();

@@ -45,7 +45,8 @@ function heading(title, curves, right) {
  */
 export function drawLines(svg, { title, x, y, curves, level, here }) {
   const { width, height } = svg.viewBox.baseVal;
-  const left = 46, right = width - RIGHT, foot = height - BOTTOM;
+  const heights = marksOf(y, 6).map(written), right = width - RIGHT;
+  const left = 30 + LETTER * Math.max(...heights.map((words) => words.length)), foot = height - BOTTOM;
   const { items: drawing, top } = heading(title, curves, right);
   const X = scale(x, left, right), Y = scale(y, foot, top);
   for (const value of marksOf(y, 6)) {
