@@ -96,6 +96,7 @@ def test_a_name_decides_the_numbers_until_the_first_answer(desk):
     assert student.box.disabled
     student.box.value = "Bob"
     assert "fixed with your first answer" in student.message.value
+    assert "To begin anew, move the file away" in student.message.value
     assert exercise.words.value == own
     assert read_work(desk / file_name("collision")).name == "Anna"
 

@@ -37,13 +37,13 @@ class Student:
         self.kept = work_on(lesson)
         self.box = ipw.Text(
             value=self.kept.work.name,
-            placeholder="name or student ID",
+            description="Your name or number",
             continuous_update=False,
-            layout=ipw.Layout(width="260px"),
+            layout=ipw.Layout(width="400px"),
+            style={"description_width": "initial"},
         )
         self.message = ipw.HTML()
-        label = ipw.HTML(paragraph("<b>Your name or number</b>"))
-        self.widget = ipw.VBox([ipw.HBox([label, self.box]), self.message])
+        self.widget = ipw.VBox([self.box, self.message])
         self._shown = Shown(self.widget)
         self._follow()
         self.box.observe(self._given, "value")
@@ -53,7 +53,7 @@ class Student:
         try:
             self.kept.rename(self.box.value)
         except InputError as error:
-            self._follow(f"{error}.".capitalize())
+            self._follow(f"The name was not taken: {error}.")
         else:
             self._follow()
 
@@ -61,9 +61,12 @@ class Student:
         kept = self.kept
         self.box.disabled = kept.fixed
         whose = f"of {kept.work.name}" if kept.work.name else "that everybody has"
+        when = "They are fixed with your first answer."
+        if kept.fixed:
+            when = "To begin anew, move the file away and run the notebook in a new kernel."
         words = (
-            f"The exercises below have the numbers {whose}. They are fixed with your first answer. "
-            f"Your work is kept in {kept.path.name}, beside this notebook."
+            f"The exercises below have the numbers {whose}. Your work is kept in "
+            f"{kept.path.name}, beside this notebook. {when}"
         )
         trouble = refused or kept.trouble
         self.message.value = (refusal(trouble) if trouble else "") + muted(html.escape(words))
@@ -131,11 +134,17 @@ class Exercise:
             options = tuple(question.choices)
             self.box = ipw.RadioButtons(options=options, value=None, layout=layout)
         else:
-            hint, layout = "a number", ipw.Layout(width="230px")
+            hint, layout = "a number", ipw.Layout(width="290px")
             if question.dimension:
                 unit = DIMENSIONS[question.dimension].units.split(",")[0]
                 hint = f"number and unit, e.g. in {unit}"
-            self.box = ipw.Text(placeholder=hint, continuous_update=False, layout=layout)
+            self.box = ipw.Text(
+                description="Answer",
+                placeholder=hint,
+                continuous_update=False,
+                layout=layout,
+                style={"description_width": "initial"},
+            )
         self._restore()
         if not question.choices:
             self.box.observe(self.answer, "value")  # on Enter, and on leaving the box
