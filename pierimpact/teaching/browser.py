@@ -1,9 +1,10 @@
 """What is drawn in the browser: JavaScript modules, and what Python tells them.
 
 The modules are in `templates/page`. `model` has the mechanics, `column` the pier, `spectrum` and
-`history` what is calculated with them; `chart`, `picture` and `figures` draw, `controls` are the
-sliders. `explorer` joins them to the explorer of a collision, `charts` to one whose charts are
-calculated in Python, and `widget` puts either into a notebook. They are joined into one script.
+`history` what is calculated with them; `chart`, `picture` and `figures` draw, `sentences` says it in
+words, `controls` are the sliders. `explorer` joins them to the explorer of a collision, `charts` to
+one whose charts are calculated in Python, and `widget` puts either into a notebook. They are joined
+into one script.
 """
 
 import re
@@ -23,7 +24,8 @@ from pierimpact.vehicle.truck import Truck
 
 #: The modules of the explorer of a collision, each after those that it imports.
 EXPLORER = (
-    "model", "spectrum", "history", "chart", "picture", "column", "controls", "explorer",
+    "model", "spectrum", "history", "chart", "sentences", "picture", "column", "controls",
+    "explorer",
 )  # fmt: skip
 #: Those of all explorers in a notebook.
 WIDGET = (*EXPLORER, "figures", "charts", "widget")

@@ -1,7 +1,7 @@
 """The explorer as one HTML file that needs neither Python nor a network.
 
-Its explorer is that of the notebooks (`browser`); the module `questions` has the predictions, and
-`page` the page itself.
+Its explorer is that of the notebooks (`browser`); the modules `questions` and `predictions`
+have what is asked, and `page` the page itself.
 """
 
 import base64
@@ -23,6 +23,7 @@ from pierimpact.pier.equivalent import DAMPING_RATIO
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY
 from pierimpact.teaching.browser import EXPLORER, script, stylesheet, truck_data, variable_data
+from pierimpact.vehicle.truck import QUANTITIES
 
 PIER_MASS = 8e3  # of all piers on the page, as in the lessons on spectra [kg]
 # Frequencies on the page, with the one at first in their middle [Hz], and speeds [km/h].
@@ -76,7 +77,7 @@ def page(trucks: Sequence[TruckFile]) -> str:
         undefined=StrictUndefined,
     )
     sheet = stylesheet("explorer", "page")
-    program = script(*EXPLORER, "questions", "page")
+    program = script(*EXPLORER, "questions", "predictions", "page")
     return templates.get_template("page.html.j2").render(
         policy=f"default-src 'none'; script-src {_hash(program)}; style-src {_hash(sheet)}; "
         "base-uri 'none'; form-action 'none'",
@@ -143,9 +144,10 @@ def _words(file: TruckFile) -> dict[str, Any]:
     """Return what the page says of a truck."""
     rows = []
     for parameter in file.parameters:
-        spread = parameter.spread.words if parameter.spread else "none given"
-        if isinstance(parameter.value, str):
-            spread = "–"
+        spread = "none given" if parameter.name in QUANTITIES else "–"
+        if parameter.spread:
+            source = f", {parameter.spread_source}" if parameter.spread_source else ""
+            spread = f"{parameter.spread.words}{source}"
         status = parameter.status.words
         heading = BY_KEY[parameter.name].heading
         rows.append((heading, parameter.given, spread, status, parameter.source))
@@ -162,12 +164,14 @@ def _words(file: TruckFile) -> dict[str, Any]:
 
 def _caution(file: TruckFile) -> str:
     """Return how far the numbers of a truck may be off, in a sentence."""
-    spreads = {parameter.spread.words for parameter in file.parameters if parameter.spread}
-    if not spreads:
+    spreads = {(file[name].spread, file[name].spread_source) for name in QUANTITIES}
+    if not any(spread for spread, _ in spreads):
         return "Its file does not say how far its parameters may be off."
     if len(spreads) > 1:
         return "Its parameters have spreads of their own: trust the trend, not the numbers."
-    return f"Any of its parameters may be off by {spreads.pop()}: trust the trend, not the numbers."
+    ((spread, source),) = spreads
+    off = f"{spread.words if spread else ''}{f' ({source})' if source else ''}"
+    return f"Any of its parameters may be off by {off}: trust the trend, not the numbers."
 
 
 def _mass_words(masses: MassRange | None) -> str:

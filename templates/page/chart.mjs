@@ -5,9 +5,7 @@ import { isEnginePeak } from "./spectrum.mjs";
 export const MARGIN = { left: 40, right: 14, top: 26, bottom: 40 };
 const ROUND = [1, 1.2, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10];
 const FREQUENCIES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000];
-const LINE = 16, WIDE = 7; // height of a line of text and width of a letter, rather more than less [px]
-
-const NAMES = { engine: "engine governs", cargo: "cargo governs", neither: "neither arrives" };
+const LINE = 16, LETTER = 7; // height of a line, and width of a letter, rather too large [px]
 
 /** An SVG element with its attributes and children. */
 export function element(name, attributes = {}, ...children) {
@@ -80,7 +78,7 @@ function forceAxis(Y, bottom, top, left, right, steps) {
 /** What the lines are, above the chart at the right; with their marks where they have some. */
 function key(entries, right, y) {
   const items = [];
-  for (const [kind, words, marked] of entries.toReversed()) {
+  for (const [kind, words, marked] of [...entries].reverse()) {
     right -= 6.5 * words.length;
     const line = { x1: right - 26, x2: right - 6, y1: y - 4, y2: y - 4, class: `curve ${kind}` };
     items.push(text(words, right, y, "key", "start"), element("line", line));
@@ -92,7 +90,7 @@ function key(entries, right, y) {
 
 /** Words on a ground of their own, which are read wherever they stand. */
 export function tag(words, x, y, className, anchor) {
-  const width = WIDE * words.length + 6;
+  const width = LETTER * words.length + 6;
   const left = { start: x - 3, middle: x - 0.5 * width, end: x + 3 - width }[anchor];
   return element("g", {},
     element("rect", { x: left, y: y - LINE + 2, width, height: LINE + 2, rx: 3, class: "ground" }),
@@ -121,7 +119,7 @@ export function drawSpectrum(svg, { points, bands, range, top }) {
     const from = x(low), to = x(high);
     const area = { x: from, y: head, width: to - from, height: foot - head, class: `band ${what}` };
     drawing.push(element("rect", area));
-    const words = [NAMES[what], what].find((name) => WIDE * name.length < to - from - 10);
+    const words = [`${what} governs`, what].find((name) => LETTER * name.length < to - from - 10);
     if (words) names.push(tag(words, 0.5 * (from + to), head + LINE, `name ${what}`, "middle"));
   }
   drawing.push(...forceAxis(Y, 0, top, left, right, 7));
@@ -164,7 +162,7 @@ export function drawSpectrum(svg, { points, bands, range, top }) {
     );
   }
   if (crossings.length) {
-    const words = `equal at ${hertz(crossings.at(-1))}`, half = 0.5 * WIDE * words.length;
+    const words = `equal at ${hertz(crossings.at(-1))}`, half = 0.5 * LETTER * words.length;
     const place = Math.min(Math.max(x(crossings.at(-1)), left + half), right - half);
     drawing.push(tag(words, place, foot - 6, "value crossing", "middle"));
   }
@@ -179,14 +177,14 @@ export function drawHere(svg, { range, top, here }) {
   const bodies = ["engine", "cargo"].filter((body) => here[body] !== null);
   // Values above the upper mark and below the lower one, where the lines are not.
   const upper = here.cargo !== null && here.cargo > here.engine ? "cargo" : "engine";
-  const heights = apart(
-    bodies.map((body) => Y(here[body]) + (body === upper ? -9 : 19)), head + 2 * LINE + 4, foot - LINE - 8,
-  );
+  const beside = bodies.map((body) => Y(here[body]) + (body === upper ? -9 : 19));
+  const heights = apart(beside, head + 2 * LINE + 4, foot - LINE - 8);
   bodies.forEach((body, n) => {
     const kind = body === "engine" && !isEnginePeak(here) ? "crumpling" : body;
+    const [x, anchor] = late ? [at - 12, "end"] : [at + 12, "start"];
     marks.push(
       mark(body, at, Y(here[body]), kind === body ? "mark" : "mark crumpling"),
-      tag(force(here[body]), at + (late ? -12 : 12), heights[n], `value ${kind}`, late ? "end" : "start"),
+      tag(force(here[body]), x, heights[n], `value ${kind}`, anchor),
     );
   });
   svg.querySelector(".pier-on-show").replaceChildren(...marks);
@@ -230,7 +228,8 @@ export function drawHistory(svg, { history, end, top, bottom }) {
     path(rows.map((row) => [X(row[0]), Y(row[7])]), "curve thin engine"),
     path(rows.map((row) => [X(row[0]), Y(row[8])]), "curve thin cargo"),
   );
-  const times = Array.from({ length: Math.round(right - left) }, (_, n) => (n * end) / (right - left));
+  const count = Math.round(right - left);
+  const times = Array.from({ length: count }, (_, n) => (n * end) / count);
   drawing.push(path(times.map((time) => [X(time), Y(history.reaction(time))]), "curve reaction"));
   const { outcome } = history;
   for (const body of ["engine", "cargo"]) {
@@ -290,6 +289,8 @@ export function drawInstant(svg, { history, end, top, bottom, instant, line = fa
 
 function historyAxes(svg, end, top, bottom) {
   const { width, height } = svg.viewBox.baseVal;
-  const left = MARGIN.left, right = width - MARGIN.right, head = MARGIN.top, foot = height - 36;
-  return { left, right, head, foot, X: scale(0, end, left, right), Y: scale(bottom, top, foot, head) };
+  const left = MARGIN.left, right = width - MARGIN.right;
+  const head = MARGIN.top, foot = height - MARGIN.bottom + 4;
+  const X = scale(0, end, left, right), Y = scale(bottom, top, foot, head);
+  return { X, Y, left, right, head, foot };
 }

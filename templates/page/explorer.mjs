@@ -4,6 +4,7 @@ import { isMechanism, pierOf } from "./column.mjs";
 import { Control, button, make } from "./controls.mjs";
 import { energyShares, follow } from "./history.mjs";
 import { EXAGGERATION, drawPicture } from "./picture.mjs";
+import { answer, firstPeak, phase, sentence } from "./sentences.mjs";
 import { bandsOf, coarseSpectrum, isEnginePeak, pierAt, refine } from "./spectrum.mjs";
 
 const COARSE = 33; // points of a spectrum while a slider moves
@@ -37,7 +38,7 @@ const skeleton = (id) => `
 <section class="collision" aria-label="The collision in slow motion">
   <figure>
     <svg class="picture" id="${id}picture" role="img" aria-labelledby="${id}picture-words"></svg>
-    <figcaption><span id="${id}picture-words"></span> <span class="quiet">Pier’s movement ${EXAGGERATION} × too large.</span></figcaption>
+    <figcaption><span id="${id}picture-words"></span> <span class="quiet">Pier’s movement ${EXAGGERATION} × too large, time ${SLOWER} × too slow.</span></figcaption>
   </figure>
   <figure>
     <svg class="history" id="${id}history" role="img" aria-labelledby="${id}history-words"></svg>
@@ -329,7 +330,8 @@ export class Explorer {
 
   #showSpectra() {
     if (!this.setup.spectra || !this.history) return;
-    this.$("answer").replaceChildren(...answer(this.shown));
+    const [peaks, governs] = answer(this.shown);
+    this.$("answer").replaceChildren(peaks, make("strong", { textContent: governs }));
     if (!this.#fitted("chart")) return;
     drawSpectrum(this.$("chart"), this.shown);
     this.#showHere();
@@ -342,9 +344,8 @@ export class Explorer {
   }
 
   #showCollision() {
-    const { outcome } = this.history, words = sentence(outcome, this.collision.frequency);
-    const own = isEnginePeak(outcome);
-    this.$("engine-name").textContent = own ? "Engine’s peak" : outcome.cargo === null ? "Largest reaction" : "Largest before cargo";
+    const { outcome } = this.history, words = sentence(this.collision.frequency, outcome);
+    this.$("engine-name").textContent = firstPeak(outcome);
     this.$("engine-peak").textContent = force(outcome.engine);
     this.$("cargo-peak").textContent = outcome.cargo === null ? "none" : force(outcome.cargo);
     this.$("sentence").textContent = words;
@@ -417,8 +418,8 @@ export class Explorer {
     cancelAnimationFrame(this.playing);
     this.playing = null;
     const { end } = this.axes ?? {};
+    if (start && (this.moment === GOVERNING || this.instant >= end - 1e-9)) this.instant = 0;
     if (start) this.moment = null;
-    if (start && this.instant >= end - 1e-9) this.instant = 0;
     let last = null;
     const picture = (time) => {
       if (last !== null) this.instant = Math.min(this.instant + (time - last) / 1e3 / SLOWER, this.axes.end);
@@ -452,79 +453,10 @@ function momentOf(outcome, moment) {
   return outcome[moment] ?? null;
 }
 
-// Sentences
-
 function number(value) {
   return value >= 1000 ? Math.round(value).toLocaleString("en").replaceAll(",", " ") : String(Number(value.toPrecision(3)));
 }
 
 function percent(share) {
   return `${(100 * share).toFixed(share < 0.095 ? 1 : 0)} %`;
-}
-
-function sentence(outcome, frequency) {
-  const { engine, engineContact, cargo } = outcome, at = `On a pier of ${hertz(frequency)}`;
-  if (engineContact === null && cargo === null) {
-    return `${at} neither engine nor cargo arrives: crumpling sheet metal stops both. The largest reaction is ${force(engine)}.`;
-  }
-  if (engineContact === null) {
-    return `${at} the engine stops short; the cargo arrives and governs, with ${force(Math.max(cargo, engine))}.`;
-  }
-  if (cargo === null) {
-    return `${at} the engine governs, with ${force(engine)}. The cargo stops short of the pier.`;
-  }
-  if (!isEnginePeak(outcome)) {
-    return cargo >= engine
-      ? `${at} the cargo governs, with ${force(cargo)}. The engine’s blow has no peak of its own: the reaction still rises as the cargo arrives.`
-      : `${at} the reaction before the cargo’s contact is the larger: ${force(engine)}, the cargo’s peak ${force(cargo)}.`;
-  }
-  const [most, more, least, less] = cargo >= engine
-    ? ["cargo", cargo, "engine", engine]
-    : ["engine", engine, "cargo", cargo];
-  return `${at} the ${most} governs: ${force(more)}, ${(more / less).toFixed(1)} times the ${least}’s ${force(less)}.`;
-}
-
-/** What the spectra say, in sentences. */
-function answer({ points, bands }) {
-  const engine = points.filter(isEnginePeak);
-  const cargo = points.filter((point) => point.cargo !== null);
-  if (!points.some((point) => point.engineContact !== null) && !cargo.length) {
-    return ["At this speed crumpling sheet metal stops engine and cargo before they reach any of these piers."];
-  }
-  const words = [
-    engine.length ? `The engine’s peak ${trend(engine, "engine")}.` : "The engine stops short of all these piers.",
-    cargo.length ? `The cargo’s peak ${trend(cargo, "cargo")}.` : "The cargo stops short of all these piers.",
-  ];
-  const crossings = bands.filter((band) => band.crossing).map((band) => hertz(band.low));
-  const [lower, upper] = [bands[0].what, bands.at(-1).what];
-  let governs = "";
-  if (bands.length === 1) governs = `The ${lower} governs throughout.`;
-  else if (bands.length === 2 && crossings.length === 1) {
-    governs = `Below ${crossings[0]} the ${lower} governs, above it the ${upper}.`;
-  } else if (crossings.length > 1) {
-    governs = `The lines cross at ${crossings.slice(0, -1).join(", ")} and ${crossings.at(-1)}.`;
-  }
-  return [`${words.join(" ")} `, make("strong", { textContent: governs })];
-}
-
-/** How a peak changes from the softest pier to the stiffest, in words. */
-function trend(points, body) {
-  const most = points.reduce((p, q) => (q[body] > p[body] ? q : p));
-  const [from, to, top] = [points[0], points.at(-1), most].map((point) => point[body]);
-  const ends = `from ${force(from)} at ${hertz(points[0].frequency)}`;
-  if (top > 1.1 * from && top > 1.1 * to) {
-    return `rises ${ends} to ${force(top)} at ${hertz(most.frequency)}, then falls back to ${force(to)}`;
-  }
-  const verb = to > 1.1 * from ? "rises" : to < from / 1.1 ? "falls" : "hardly changes,";
-  return `${verb} ${ends} to ${force(to)} at ${hertz(points.at(-1).frequency)}`;
-}
-
-function phase({ time, F1, F2 }, { engineContact, cargoContact }) {
-  const met = (contact) => contact !== null && time >= contact;
-  if (time === 0) return "first touch.";
-  if (F1 <= 0 && F2 <= 0) return "the truck has left, the pier vibrates.";
-  if (met(cargoContact) && F2 > 0) return "the cargo is in contact.";
-  if (met(engineContact) && F1 > 0) return "the engine is in contact.";
-  if (met(engineContact)) return "the engine has rebounded.";
-  return "sheet metal crumples.";
 }

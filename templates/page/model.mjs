@@ -175,7 +175,8 @@ export function simulate(truck, pier, speed, { duration = 0, record = null } = {
   }
 
   function holding(state) {
-    return friction.holding(engine.force(state), body.force(state), kp * state[XP] + cp * state[VP]);
+    const resistance = kp * state[XP] + cp * state[VP];
+    return friction.holding(engine.force(state), body.force(state), resistance);
   }
 
   /**

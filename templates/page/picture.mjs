@@ -26,6 +26,7 @@ export function drawPicture(svg, { truck, now, frequency, top }) {
   // What has been crushed does not stretch again: after the rebound there is a gap.
   const engineTip = Math.min(engineFront + gap(d1, Math.max(now.left1, crush1)), face);
   const nose = Math.min(boxFront + gap(d2, Math.max(now.left2, crush2)), face);
+  const stroke = 1 + 1.6 * Math.log10(frequency / 3); // thicker for a stiffer pier
   svg.replaceChildren(
     // What stands still: deck, road, wall, and where the pier was.
     box(left, DECK, RIGHT - left, TOP - DECK, "deck"),
@@ -35,8 +36,7 @@ export function drawPicture(svg, { truck, now, frequency, top }) {
     // The pier and what holds it.
     box(face, 0.06, PIER, DECK - 0.12, "pier"),
     label("pier", face + 0.5 * PIER, 1.75, "inside"),
-    zigzag(face + PIER, WALL, PIER_SPRING, 0.26, 11, "holding", 1 + 1.6 * Math.log10(frequency / 3)),
-    ...arrow(face + PIER, now.R, top),
+    zigzag(face + PIER, WALL, PIER_SPRING, 0.26, 11, "holding", stroke),
     // The truck, from the back.
     box(boxFront - BOX, 1.0, BOX, 0.2, "chassis"),
     wheel(boxFront - BOX + 1.1),
@@ -49,6 +49,7 @@ export function drawPicture(svg, { truck, now, frequency, top }) {
     box(engineFront - ENGINE, 0.5, ENGINE, 0.68, "engine-box", 0.08),
     zigzag(engineFront, engineTip, ENGINE_HEIGHT, 0.17, 7, "engine", now.F1 > 0 ? 3 : 1.6),
     label(`engine ${kmh(now.v1)}`, Math.min(engineFront, -0.8), -0.64, "engine small", "end"),
+    ...arrow(face + PIER, now.R, top),
   );
 }
 
@@ -75,7 +76,8 @@ function label(words, x, z, className, anchor = "middle") {
 }
 
 function polygon(points, className) {
-  return element("polygon", { points: points.map(([x, z]) => `${x},${-z}`).join(" "), class: className });
+  const places = points.map(([x, z]) => `${x},${-z}`).join(" ");
+  return element("polygon", { points: places, class: className });
 }
 
 function wheel(x) {
@@ -107,9 +109,10 @@ function cab(rear, nose, whole) {
 
 /** The reaction as an arrow that holds against the pier, to scale. */
 function arrow(face, reaction, top) {
-  const z = 2.6, length = (ARROW * Math.abs(reaction)) / top;
+  const z = 2.75, length = (ARROW * Math.abs(reaction)) / top;
   const tip = Math.min(face + 0.12, RIGHT - length - 0.2);
-  const words = label(`R = ${force(reaction)}`, Math.min(tip, RIGHT - 5), z + 0.4, "reaction", "start");
+  const [place, anchor] = tip < RIGHT - 6 ? [tip, "start"] : [RIGHT - 0.2, "end"];
+  const words = label(`R = ${force(reaction)}`, place, 3.44, "reaction", anchor);
   if (length < 0.05) return [words];
   const [end, start] = reaction > 0 ? [tip, tip + length] : [tip + length, tip];
   const head = Math.min(0.4, length) * Math.sign(start - end);

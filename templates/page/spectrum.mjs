@@ -1,8 +1,8 @@
 // The spectra: the peaks of many collisions over the frequency of the pier.
 import { simulate } from "./model.mjs";
 
-// How far a spectrum may be from the straight line between its points, and the ratios of frequencies
-// from which an interval is wide, and down to which it is halved.
+// How far a spectrum may be from the straight line between its points, and the ratios of two
+// frequencies from which an interval is wide, and down to which it is halved.
 const TOLERANCE = 0.002, WIDE = 1.02, SHORTEST = 1.001;
 
 /** A pier of the given mass and damping on the spring that gives it this frequency [Hz]. */
@@ -58,10 +58,10 @@ export function isEnginePeak({ engineContact, engineTime, cargoContact }) {
   return cargoContact === null || cargoContact - engineTime > 1e-6 * cargoContact;
 }
 
-/** What governs at a point: "engine", "cargo", or "neither" where no hard body reaches the pier. */
+/** What governs at a point: "engine", "cargo", or "sheet metal" where the engine stops short. */
 export function governs({ engine, cargo, engineContact }) {
   if (cargo !== null && cargo >= engine) return "cargo";
-  return engineContact === null && cargo === null ? "neither" : "engine";
+  return engineContact === null ? "sheet metal" : "engine";
 }
 
 /** Stretches of frequency with one thing governing: { what, low, high, crossing }. */
