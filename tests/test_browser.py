@@ -1,7 +1,7 @@
 """The explorers in a real browser: JupyterLab on loopback, headless Chromium, sliders that move."""
 
 import contextlib
-import hashlib
+import json
 import math
 import os
 import shutil
@@ -9,14 +9,16 @@ import socket
 import subprocess
 import sys
 import time
+from importlib.util import find_spec
 from pathlib import Path
+from urllib.request import Request, urlopen
 
 import pytest
 
 from pierimpact.teaching.questions import LESSONS as COURSE
 from pierimpact.teaching.questions import questions as questions_of
 from pierimpact.teaching.scenario import Scenario
-from pierimpact.units import DIMENSIONS, printed
+from pierimpact.units import DIMENSIONS
 
 webdriver = pytest.importorskip("selenium.webdriver")
 StaleElementReferenceException = pytest.importorskip(
@@ -121,25 +123,18 @@ class Page:
     def one(self, selector):
         return until(lambda: self.all(selector))[0]
 
-    def slider(self, words):
-        """Return the handle of the slider under these words."""
-        return self.browser.find_element(
-            "xpath",
-            f"//div[contains(@class, 'widget-html')][contains(., '{words}')]"
-            "/following-sibling::div//div[contains(@class, 'noUi-handle')]",
+    def control(self, name, part="", explorer=0):
+        """Return a control of one of the explorers of the page, by the name of its variable."""
+        return self.all(".pierimpact")[explorer].find_element(
+            "css selector", f".explorer [id$='-{name}{part}']"
         )
 
-    def press(self, slider, key, times):
-        """Press a key on a slider's handle; each press has to move it before the next one."""
-
-        def moved():
-            return slider().get_attribute("aria-valuenow") != before
-
+    def press(self, name, key, times=1, explorer=0):
+        """Press a key on a slider."""
         for _ in range(times):
-            before = until(lambda: slider().get_attribute("aria-valuenow"))
-            until(lambda: self.browser.execute_script("arguments[0].focus()", slider()) is None)
-            slider().send_keys(key)
-            until(moved)
+            slider = until(lambda: self.control(name, explorer=explorer))
+            self.browser.execute_script("arguments[0].focus({preventScroll: true})", slider)
+            slider.send_keys(key)
 
     def push(self, words):
         """Press the button with these words."""
@@ -153,17 +148,6 @@ class Page:
 
         until(pushed)
 
-    def beside(self, words, what):
-        """Return the box or list beside these words."""
-        return self.browser.find_element(
-            "xpath",
-            f"//div[contains(@class, 'widget-html')][contains(., '{words}')]"
-            f"/following-sibling::div//{what}",
-        )
-
-    def choose(self, words, choice):
-        self.beside(words, f"option[. = '{choice}']").click()
-
     def tick(self, choice):
         """Tick the radio button with these words."""
 
@@ -176,8 +160,11 @@ class Page:
 
         until(ticked)
 
-    def type(self, words, text):
-        self.fill(self.beside(words, "input"), text)
+    def choose(self, name, choice):
+        self.control(name).find_element("xpath", f"option[. = '{choice}']").click()
+
+    def type(self, name, text):
+        self.fill(self.control(name, "-value"), text)
 
     def fill(self, box, text):
         keys = webdriver.Keys
@@ -185,18 +172,20 @@ class Page:
         box.send_keys(text, keys.ENTER)
 
     def readout(self):
-        return until(lambda: self.one(".pierimpact-live").text)
+        """Return the sentence of a collision, or of charts that Python calculates."""
+        return until(lambda: self.one(".pierimpact .sentence, .pierimpact .readout").text)
 
     def alerts(self):
         """Return the sentences shown in place of the figures."""
-        return [alert.text for alert in self.all(".pierimpact-live [role=alert]")]
+        alerts = [alert.text for alert in self.all(".pierimpact .refusal")]
+        return [words for words in alerts if words]
 
     def figures(self):
-        return self.all(".pierimpact-live img")
+        return self.all(".pierimpact svg[role=img]")
 
-    def pixels(self):
-        """Return a digest of what each of the explorer's figures looks like."""
-        return [hashlib.sha256(figure.screenshot_as_png).hexdigest() for figure in self.figures()]
+    def drawn(self):
+        """Return what each of the explorer's figures consists of."""
+        return [figure.get_attribute("innerHTML") for figure in self.figures()]
 
 
 class Lesson(Page):
@@ -243,13 +232,12 @@ def explorer(browser, server):
 def page(explorer):
     """Return the explorer at its defaults, whatever the test before left behind."""
     explorer.push("Reset")
-    until(lambda: explorer.readout().count(force(Scenario().history.engine_peak.reaction)))
-    until(lambda: all(figure.is_displayed() for figure in explorer.figures()))
+    until(lambda: mega(Scenario().history.engine_peak) in explorer.readout())
     return explorer
 
 
-def force(value):
-    return str(printed(value, "force", "SI"))
+def mega(peak):
+    return f"{peak.reaction / 1e6:.2f} MN"
 
 
 def test_the_still_is_hidden_beside_the_live_explorer(page):
@@ -258,67 +246,145 @@ def test_the_still_is_hidden_beside_the_live_explorer(page):
 
 def test_the_figures_follow_a_slider_with_the_packages_values(page):
     keys = webdriver.Keys
-    before = page.pixels()
-    assert len(before) == 5  # picture, forces, energy and two spectra
-    assert force(Scenario().history.engine_peak.reaction) in page.readout()
-    page.press(lambda: page.slider("Speed at first touch"), keys.ARROW_LEFT, 10)
+    before = page.drawn()
+    assert len(before) == 4  # spectra, picture, forces and energy
+    page.press("speed", keys.ARROW_LEFT, 10)
     history = Scenario(speed=70.0 / 3.6).history
-    until(lambda: force(history.engine_peak.reaction) in page.readout())
-    assert force(history.cargo_peak.reaction) in page.readout()
-    until(lambda: all(old != new for old, new in zip(before, page.pixels(), strict=True)))
-    page.press(lambda: page.slider("Speed at first touch"), keys.ARROW_RIGHT, 10)
-    until(lambda: force(Scenario().history.engine_peak.reaction) in page.readout())
+    until(lambda: mega(history.engine_peak) in page.readout())
+    assert mega(history.cargo_peak) in page.readout()
+    assert all(old != new for old, new in zip(before, page.drawn(), strict=True))
+
+
+def test_the_pier_is_a_column_until_its_frequency_is_set(page):
+    keys = webdriver.Keys
+    page.press("pier_frequency", keys.ARROW_LEFT)
+    words = page.control("pier_frequency").get_attribute("aria-valuetext")
+    frequency = 2.0 * 10.0 ** (
+        0.01 * round(100.0 * math.log10(Scenario().pier.frequency / 2.0)) - 0.01
+    )
+    assert words == f"{frequency:.1f} hertz"
+    pier = {"pier_frequency": frequency, "pier_mass": Scenario().pier.mass}
+    until(lambda: mega(Scenario(**pier).history.engine_peak) in page.readout())
+    for drawer in page.all(".pierimpact summary"):
+        drawer.click()
+    page.choose("top", "fixed")
+    until(lambda: mega(Scenario(top="fixed").history.engine_peak) in page.readout())
+    for drawer in page.all(".pierimpact summary"):
+        drawer.click()
+
+
+def test_the_kernel_knows_the_values(page):
+    page.type("speed", "45 mph")
+    until(lambda: "72.42 km/h" in page.control("speed", "-value").get_attribute("value"))
+    page.push("Copy as case file")
+    until(lambda: "speed: 72.420480 km/h"[:12] in page.one(".pierimpact pre").text)
+    assert "speed: 72.42048 km/h" in page.one(".pierimpact pre").text
 
 
 def test_the_animation_can_be_scrubbed_and_played(page):
     keys = webdriver.Keys
+    page.push("Cargo’s peak")
     history = Scenario().history
-
-    def shown(reaction):
-        return lambda: f"R = {force(reaction)}." in page.readout()
-
-    page.push("Cargo peak")
-    until(shown(history.cargo_peak.reaction))
-    assert f"{1e3 * history.cargo_peak.time:.1f} ms" in page.readout()
-    picture, forces, engine, energy, cargo = page.pixels()
-    handle = ".pierimpact-live .widget-play + .widget-slider .noUi-handle"
-    page.press(lambda: page.one(handle), keys.ARROW_LEFT, 20)
-    until(lambda: f"R = {force(history.cargo_peak.reaction)}." not in page.readout())
-    until(lambda: page.pixels()[0] != picture)
-    until(lambda: forces not in page.pixels() and energy not in page.pixels())
-    assert engine in page.pixels()  # a spectrum does not show time
-    assert cargo in page.pixels()
-    page.push("First touch")
-    until(shown(0.0))
-    picture = page.pixels()[0]
-    page.one(".pierimpact-live .widget-play button").click()
-    until(lambda: page.pixels()[0] != picture)
+    picture = page.one(".picture")
+    until(lambda: f"R = {mega(history.cargo_peak)}" in picture.text)
+    spectra, *others = page.drawn()
+    page.press("instant", keys.ARROW_LEFT, 20)
+    until(lambda: all(old != new for old, new in zip(others, page.drawn()[1:], strict=True)))
+    assert page.drawn()[0] == spectra  # a spectrum does not show time
+    page.press("instant", keys.HOME)
+    until(lambda: "R = 0.00 MN" in picture.text)
+    page.push("Play")
+    until(lambda: "R = 0.00 MN" not in picture.text)
+    page.push("Pause")
 
 
-def test_a_mechanism_is_said_in_a_sentence_where_the_figures_were(page):
-    page.choose("Base", "free")
+def test_a_mechanism_is_said_in_a_sentence(page):
+    for drawer in page.all(".pierimpact summary"):
+        drawer.click()
+    page.choose("base", "free")
     until(lambda: any("mechanism" in alert for alert in page.alerts()))
-    until(lambda: not any(figure.is_displayed() for figure in page.figures()))
     page.push("Reset")
-    until(lambda: all(figure.is_displayed() for figure in page.figures()))
+    until(lambda: not page.alerts())
+    for drawer in page.all(".pierimpact summary"):
+        drawer.click()
 
 
 def test_no_contact_is_said_in_a_sentence(page):
-    page.type("Speed at first touch", "20 km/h")
-    until(lambda: "Neither engine nor cargo reaches the pier" in page.readout())
-    page.push("Reset")
-    until(lambda: "The engine governs" in page.readout())
+    page.type("speed", "20 km/h")
+    until(lambda: "neither engine nor cargo arrives" in page.readout())
 
 
-def test_nonsense_is_answered_in_a_sentence(page):
-    page.type("Speed at first touch", "fast")
-    until(lambda: any("must be a speed" in alert for alert in page.alerts()))
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("fast", "must be a number with a unit (km/h, m/s, mph)"),
+        ("80 kN", "must be a number with a unit"),
+        ("-3 km/h", "must be from 1 km/h to 1300 km/h"),
+        ("<img src=x>", "“<img src=x>”"),
+    ],
+)
+def test_nonsense_is_answered_in_a_sentence(page, typed, said):
+    page.type("speed", typed)
+    until(lambda: any(said in alert for alert in page.alerts()))
     page.push("Reset")
     until(lambda: not page.alerts())
 
 
 def test_no_error_reached_the_notebook(page):
     page.holds_no_error()
+
+
+AXE = Path(find_spec("axe_core_python").origin).parent / "axe.min.js"
+FAULTS = """
+const [scope, done] = arguments;
+axe.run(scope, { resultTypes: ["violations"] }).then(({ violations }) => done(violations
+  .filter(({ impact }) => impact === "serious" || impact === "critical")
+  .flatMap(({ help, nodes }) => nodes.map(({ html }) => `${help}: ${html.slice(0, 200)}`))));
+"""
+
+
+def faults(browser, scope="body"):
+    """Return what hinders those who do not see or point, as axe-core finds it."""
+    browser.set_script_timeout(PATIENCE)
+    browser.execute_script(AXE.read_text(encoding="utf-8"))
+    return browser.execute_async_script(FAULTS, scope)
+
+
+# The ground and the text of JupyterLab's themes.
+THEMES = {"light": ("true", "#fff", "#000000de"), "dark": ("false", "#111", "#ffffffde")}
+PUT_ON = """
+const [light, ground, text] = arguments[0];
+document.body.dataset.jpThemeLight = light;
+document.body.style.setProperty("--jp-layout-color0", ground);
+document.body.style.setProperty("--jp-ui-font-color1", text);
+"""
+
+
+@pytest.mark.parametrize("theme", ["dark", "light"])
+def test_nothing_hinders_those_who_do_not_see_or_point(page, theme):
+    page.browser.execute_script(PUT_ON, THEMES[theme])
+    assert faults(page.browser, ".pierimpact-live") == []
+
+
+def test_a_saved_notebook_shows_its_explorer_without_a_kernel(browser, server, page):
+    """After all that uses the explorer: its kernel is shut down."""
+    page.all("body")[0].send_keys(webdriver.Keys.CONTROL, "s")
+    until(lambda: not page.all(".jp-mod-dirty"))
+    headers = {"Authorization": f"token {TOKEN}"}
+    with urlopen(Request(f"{server}/api/sessions", headers=headers)) as answer:
+        (session,) = json.load(answer)
+    urlopen(Request(f"{server}/api/sessions/{session['id']}", headers=headers, method="DELETE"))
+    browser.get(f"{server}/lab/tree/explorer.ipynb?token={TOKEN}&reset")
+    frame = page.one(".pierimpact-still iframe")
+    until(frame.is_displayed)
+    assert "not found" not in page.one(".jp-Notebook").text
+    browser.switch_to.frame(frame)
+    try:
+        until(lambda: mega(Scenario().history.engine_peak) in page.readout())
+        page.press("speed", webdriver.Keys.ARROW_LEFT, 10)
+        until(lambda: mega(Scenario(speed=70.0 / 3.6).history.engine_peak) in page.readout())
+    finally:
+        browser.switch_to.default_content()
 
 
 @pytest.mark.parametrize("name", LESSONS)
@@ -335,12 +401,12 @@ def test_a_lesson_runs_and_its_exercises_answer(browser, server, name):
     lesson.fill(box, f"{question.answer:.6g}{unit}")
     until(lambda: f"1 of {len(questions)} solved" in lesson.text())
     until(lambda: "solved after 2 tries" in lesson.text())
-    assert not any(figure.is_displayed() for figure in lesson.figures()[:1])
+    assert not lesson.all(".pierimpact .controls")[0].is_displayed()
     right = COURSE[subject].prediction.answer()
     lesson.tick(right)
     lesson.push("Lock my prediction")
     until(lambda: f"You predicted: {right}" in lesson.text())
-    until(lambda: lesson.figures()[0].is_displayed())
+    until(lambda: any(figure.is_displayed() for figure in lesson.figures()))
     lesson.holds_no_error()
 
 
@@ -352,7 +418,18 @@ def test_voila_serves_the_explorer_without_code(browser, tmp_path):
         until(app.figures)
         assert not app.all(".jp-CodeCell .jp-InputArea-editor")
         assert not app.one(".pierimpact-still").is_displayed()
-        app.type("Speed at first touch", "70 km/h")
+        app.type("speed", "70 km/h")
         history = Scenario(speed=70.0 / 3.6).history
-        until(lambda: force(history.cargo_peak.reaction) in app.readout())
+        until(lambda: mega(history.cargo_peak) in app.readout())
         app.holds_no_error()
+        assert faults(browser) == []
+        size = {"width": 1280, "height": 720, "deviceScaleFactor": 1, "mobile": False}
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        try:
+            bottoms = (
+                "return [...document.querySelectorAll('.aligned, .chart, .picture, .player')]"
+                ".map((each) => each.getBoundingClientRect().bottom)"
+            )
+            until(lambda: max(browser.execute_script(bottoms)) <= 720.0)
+        finally:
+            browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})

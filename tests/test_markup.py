@@ -147,12 +147,10 @@ def contrast(one, other):
 def test_all_words_take_the_colours_of_the_theme(desk):
     explorer = widgets.design()
     explorer.set(speed=130.0 / 3.6, truck_mass=40e3)
-    explorer.copy()
     exercise = exercises.ask("pier", 3)
     exercise.box.value = "3 Hz"
     pieces = [
-        explorer.views["readout"].widget.value,
-        explorer._copied.value,
+        explorer.widget.contents["readout"],
         markup.refusal("no"),
         markup.warning("careful"),
         Readout("", "words", ["warned"]).html,
@@ -161,7 +159,7 @@ def test_all_words_take_the_colours_of_the_theme(desk):
         exercises.score("pier").board.value,
         exercises.begin("pier").message.value,
         predictions.ask("pier").widget.children[0].value,
-        widgets.reduction().views["readout"].widget.value,
+        widgets.reduction().widget.contents["readout"],
     ]
     found = set()
     for piece in pieces:

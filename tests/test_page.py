@@ -1,7 +1,9 @@
 """The page without Python: its solver against the package's, and the page in a real browser."""
 
 import base64
+import dataclasses
 import hashlib
+import html
 import json
 import math
 import re
@@ -14,11 +16,16 @@ import numpy as np
 import pytest
 from generated_collisions import HARD, collisions, side_by_side
 
-from pierimpact import cli, load_truck, peak_reactions
+from pierimpact import cli, load_truck, peak_reactions, simulate, widgets
 from pierimpact.checks import InputError
+from pierimpact.collision.parameters import Collision
 from pierimpact.files.trucks import read_truck_file, truck_names
 from pierimpact.pier.equivalent import stiffness_at_frequency
+from pierimpact.pier.unit_force import BY_ENDS
 from pierimpact.teaching import page as pages
+from pierimpact.teaching.readouts import ENGINE_PEAK, first_peak_name
+from pierimpact.teaching.scenario import Scenario
+from pierimpact.teaching.variables import VARIABLES
 
 HOUSE = Path(__file__).parents[1]
 MODULES = HOUSE / "templates" / "page"
@@ -54,8 +61,9 @@ def in_node(program, value):
         f"import {{ {names} }} from '{(MODULES / name).as_uri()}.mjs';\n"
         for names, name in (
             ("simulate", "model"),
-            ("bandsOf, coarseSpectrum, refine", "spectrum"),
-            ("follow", "history"),
+            ("bandsOf, coarseSpectrum, isEnginePeak, refine", "spectrum"),
+            ("follow, energyShares", "history"),
+            ("pierOf", "column"),
         )
     )
     reads = "import { readFileSync } from 'node:fs'; const cases = JSON.parse(readFileSync(0));\n"
@@ -94,6 +102,72 @@ def agree(outcomes):
 
 def test_the_solver_finds_the_packages_peaks_and_contacts():
     agree(in_node(OUTCOMES, [as_arguments(case) for case in CASES]))
+
+
+def test_the_engines_peak_is_what_the_package_calls_so():
+    slow = {"pier_mass": 8e3, "pier_frequency": 30.0}
+    cases = [Scenario(**(slow | {"pier_frequency": f})).collision for f in (2.0, 3.0, 3.5, 100.0)]
+    cases += [Scenario(**slow, speed=v / 3.6).collision for v in (35.0, 55.0, 60.0)] + CASES[:100]
+    found = in_node(f"{OUTCOMES}.map(isEnginePeak)", [as_arguments(case) for case in cases])
+    names = [first_peak_name(simulate(case.truck, case.pier, case.speed)) for case in cases]
+    assert found == [name == ENGINE_PEAK for name in names]
+    assert not all(found)
+
+
+def test_a_column_is_the_packages_pier():
+    random = np.random.default_rng(5)
+    columns = [
+        {
+            "height": float(random.uniform(2.0, 15.0)),
+            "diameter": float(random.uniform(0.4, 2.5)),
+            "place": float(random.uniform(0.05, 0.95)),
+            "base": base,
+            "top": top,
+        }
+        for base, top in BY_ENDS
+        for _ in range(5)
+    ]
+    given, expected = [], []
+    for each in columns:
+        impact = each["place"] * each["height"]
+        scenario = Scenario(
+            column_height=each["height"], column_diameter=each["diameter"], impact_height=impact,
+            base=each["base"], top=each["top"],
+        )  # fmt: skip
+        material = scenario.column.values
+        given.append(
+            each
+            | {
+                "impact": impact,
+                "elasticModulus": material["E"],
+                "shearModulus": material["kappa"] * material["G"],
+                "density": material["rho"],
+            }
+        )
+        expected.append((scenario.pier.stiffness, scenario.pier.mass))
+    found = in_node("cases.map(pierOf).map(({ stiffness, mass }) => [stiffness, mass])", given)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+@pytest.mark.parametrize("on", ["road", "pier"])
+def test_the_energy_is_where_the_package_has_it(on):
+    truck = dataclasses.replace(load_truck("single-unit-8t"), friction_force=2e4, friction_on=on)
+    case = Collision(truck, Scenario(pier_mass=8e3, pier_frequency=30.0).pier, 22.0)
+    program = (
+        "(([truck, pier, speed]) => energyShares("
+        "follow(truck, pier, speed, 0.15).rows, truck, pier, speed))(cases[0])"
+    )
+    shares = in_node(program, [as_arguments(case)])
+    time = np.array([share["time"] for share in shares])
+    history = simulate(truck, case.pier, 22.0, 0.15)
+    both = history.time <= time[-1]
+    for ours, theirs in (
+        ("motion", "kinetic"), ("pier", "pier_elastic"), ("springs", "truck_elastic"),
+        ("crush", "crush"), ("friction", "friction"), ("damping", "damping"),
+    ):  # fmt: skip
+        drawn = np.interp(history.time[both], time, [share[ours] for share in shares])
+        expected = getattr(history.energy, theirs)[both] / case.energy
+        np.testing.assert_allclose(drawn, expected, atol=4e-3)
 
 
 def test_momentum_is_kept_along_the_history():
@@ -357,11 +431,15 @@ def test_the_page_asks_for_nothing_and_solves_in_the_browser(opened):
 def test_a_key_moves_the_slider_and_the_sentence(opened):
     opened.load()
     opened.skip()
-    slider = opened.one("#frequency")
+    slider = opened.one("#pier_frequency")
     assert slider.get_attribute("aria-valuetext") == "30.0 hertz"
     assert "30.0 Hz the cargo governs: 4.88 MN" in opened.text("#sentence")
     assert opened.text("#engine-peak") == "2.70 MN"
-    keys = {"frequency": "30.6 hertz", "speed": "81 kilometres per hour", "mass": "8.5 tonnes"}
+    keys = {
+        "pier_frequency": "30.6 hertz",
+        "speed": "81 kilometres per hour",
+        "truck_mass": "8.5 tonnes",
+    }
     for name, words in keys.items():
         opened.run("arguments[0].focus()", opened.one(f"#{name}"))
         key = opened.driver.switch_to.active_element.send_keys
@@ -388,7 +466,7 @@ def test_every_control_is_reached_by_tab_and_has_a_name(opened):
         assert outline == "solid", names[-1]
     assert all(name for _, name in names)
     reached = {which for which, _ in names}
-    assert {"frequency", "play", "instant", "truck", "speed", "mass", "again"} <= reached
+    assert {"pier_frequency", "play", "instant", "truck", "speed", "truck_mass", "again"} <= reached
 
 
 @pytest.mark.parametrize("width", [320, 400])
@@ -412,7 +490,7 @@ def test_slider_lines_and_collision_fit_on_one_screen(opened):
     opened.all("#gate input")[0].click()
     opened.one("#gate .main").click()
     opened.until(lambda: opened.one("#chart").is_displayed())
-    for selector in ("#frequency", "#chart", "#picture", "#history", "#play"):
+    for selector in ("#pier_frequency", "#chart", "#picture", "#history", "#play"):
         assert 0.0 < opened.run(
             "return document.querySelector(arguments[0]).getBoundingClientRect().bottom", selector
         ) <= 720.0  # fmt: skip
@@ -448,9 +526,9 @@ for (const truck of [0, 1]) {
   move("truck", truck);
   for (const speed of [0, 0.3, 0.55, 1]) for (const mass of [0, 1]) {
     move("speed", speed);
-    move("mass", mass);
+    move("truck_mass", mass);
     for (const frequency of [0, 0.62, 1]) {
-      move("frequency", frequency);
+      move("pier_frequency", frequency);
       await picture();
       await picture();
       count += document.querySelectorAll("svg text").length > 30;
@@ -461,6 +539,46 @@ for (const truck of [0, 1]) {
 }
 done([count, found]);
 """
+
+
+STILL = """
+for (const slider of document.querySelectorAll(".slider input[type=range]")) {
+  const before = slider.value;
+  for (const share of [0, 0.5, 1]) {
+    slider.value = share * slider.max;
+    slider.dispatchEvent(new Event("input"));
+    await picture();
+    await picture();
+    count += 1;
+    found.push(...collisions().map((words) => `${words}: ${slider.id} ${share}`));
+  }
+  slider.value = before;
+  slider.dispatchEvent(new Event("input"));
+}
+found.push(...collisions());
+done([count, found]);
+"""
+
+
+@pytest.mark.parametrize("name", ["collision", "spectra", "full", "pier", "reduction", "design"])
+def test_labels_keep_clear_of_each_other_in_a_still(opened, tmp_path, name):
+    explorer = getattr(widgets, name)()
+    page = tmp_path / "still.html"
+    inside = html.unescape(re.search('srcdoc="([^"]*)"', explorer.still)[1])
+    page.write_text(inside, encoding="utf-8")
+    sliders = 0 if "charts" in explorer.widget.contents else 3
+    numbers = [name for name in explorer.controls if not VARIABLES[name].choices]
+    opened.driver.set_script_timeout(PATIENCE)
+    head = LABELS.partition("for (const truck")[0]
+    program = f"const run = async (...arguments) => {{ {head}{STILL} }}; run(...arguments)"
+    for width in (400, 850, 1240):
+        size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+        opened.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        opened.driver.get(page.as_uri())
+        opened.until(lambda: opened.all("svg[role=img] text"))
+        outcome = opened.driver.execute_async_script(program)
+        assert outcome == [sliders * len(numbers), []]
+    assert opened.errors() == []
 
 
 @pytest.mark.parametrize("width", [400, 1280])
@@ -504,7 +622,7 @@ def test_the_other_predictions_have_the_packages_answers(opened):
     soft, stiff = (peaks_at(truck, frequency, 80.0 / 3.6).engine / 1e6 for frequency in (10, 100))
     assert f"in the pier {soft:.2f} MN and {stiff:.2f} MN" in opened.text("#question-1 .verdict")
     opened.one("#question-2 .buttons button").click()
-    opened.until(lambda: opened.text("#mass-value") == "12.0 t")
+    opened.until(lambda: opened.text("#truck_mass-value") == "12.0 t")
     loaded = peaks_at(truck.loaded_to(12e3), 5.0 * 36.0 ** (150 / 180), 80.0 / 3.6)
     assert opened.text("#cargo-peak") == f"{loaded.cargo / 1e6:.2f} MN"
 
@@ -527,6 +645,7 @@ def test_it_works_where_nothing_is_remembered(opened):
 def test_the_picture_moves_and_can_be_scrubbed(opened):
     opened.load()
     picture = "return document.getElementById('picture').innerHTML"
+    opened.one("#instant").send_keys("\ue011")  # home, so that it does not end meanwhile
     before = opened.run(picture)
     opened.one("#play").click()
     opened.until(lambda: opened.run(picture) != before)

@@ -23,7 +23,6 @@ from pierimpact.teaching.explorer import Explorer
 from pierimpact.teaching.marks import collect
 from pierimpact.teaching.questions import LESSONS, questions
 from pierimpact.teaching.reading import readings
-from pierimpact.teaching.readouts import Readout
 from pierimpact.teaching.work import ENDING, KeptWork, Work, file_name, read_work
 from pierimpact.units import DIMENSIONS
 
@@ -210,9 +209,8 @@ def test_what_is_written_is_read_back(desk, lesson, name, texts, choice):
 
 
 def test_an_explorer_shows_after_the_prediction_and_says_what_came_of_it(desk):
-    nothing = Readout("", ""), {}
     for lesson, known in LESSONS.items():
-        explorer = Explorer(title="", controls=["speed"], figures={}, draw=lambda _: nothing)
+        explorer = Explorer(title="", controls=["speed"])
         box, shown = predictions.ask(lesson), predictions.reveal(lesson, explorer)
         box.lock()
         assert "Choose first" in box.message.value

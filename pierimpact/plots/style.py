@@ -61,8 +61,6 @@ TEXT_WIDTH = 168.0
 FREQUENCY_TICKS = (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 PIXEL = 0.75  # of a style sheet, 1/96 inch [pt]
-#: The dashed line of a closed formula beside what it stands for.
-FORMULA: dict[str, Any] = {"color": INK, "linewidth": 1.2 * PIXEL, "dashes": (4, 2.5)}
 SCREEN: Any = {
     "font.family": "DejaVu Sans",
     "mathtext.fontset": "dejavusans",
@@ -144,36 +142,6 @@ def to_svg(figure: Figure) -> str:
     return buffer.getvalue()
 
 
-def panel(
-    figure: Figure,
-    title: str,
-    x_label: str,
-    y_label: str,
-    *,
-    left: float = 50.0,
-    right: float = 14.0,
-    top: float = 26.0,
-    bottom: float = 38.0,
-) -> Axes:
-    """Return the one pair of axes of a figure on screen, with margins in pixels.
-
-    Parameters
-    ----------
-    figure : Figure
-        The figure.
-    title, x_label, y_label : str
-        Headings, with units.
-    left, right, top, bottom : float, optional
-        Margins [px].
-    """
-    width, height = 72.0 / PIXEL * figure.get_size_inches()
-    size = 1.0 - (left + right) / width, 1.0 - (top + bottom) / height
-    axes = figure.add_axes((left / width, bottom / height, *size))
-    axes.set(title=title, xlabel=x_label, ylabel=y_label)
-    axes.locator_params(axis="y", nbins=6)
-    return axes
-
-
 def logarithmic(axes: Axes, ticks: Sequence[float] = FREQUENCY_TICKS) -> None:
     """Make the horizontal axis logarithmic, with ticks at these values."""
     axes.set_xscale("log")
@@ -239,34 +207,3 @@ def round_out(low: float, high: float, value: float) -> tuple[float, float]:
     if value > high / 1.05:
         high = 10.0 ** (math.ceil(3.0 * math.log10(value * 1.05)) / 3.0)
     return low, high
-
-
-def mark_here(axes: Axes, x: float, y: float | None, colour: str, words: str) -> None:
-    """Mark with an upright line where one stands on a curve; with a ring, and words on top.
-
-    Parameters
-    ----------
-    axes : Axes
-        The axes, with their limits set.
-    x : float
-        Where.
-    y : float or None
-        Value there; None where there is none.
-    colour, words : str
-        Colour of the ring and what the value is, in words.
-    """
-    axes.axvline(x, color=MUTED, linewidth=PIXEL, zorder=1)
-    if y is None:
-        return
-    axes.plot([x], [y], "o", color=colour, markerfacecolor="white", zorder=5)
-    late = axes.transLimits.transform(axes.transScale.transform((x, y)))[0] > 0.6
-    note(
-        axes,
-        words,
-        (x, 1.0),
-        (-5.0 if late else 5.0, -11.0 * PIXEL),
-        xycoords=("data", "axes fraction"),
-        ha="right" if late else "left",
-        weight="bold",
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
-    )

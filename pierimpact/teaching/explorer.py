@@ -1,82 +1,100 @@
-"""An explorer: controls with units, views that follow them, and a still for print."""
+"""An explorer: one widget, drawn in the browser, whose values Python knows; and its still."""
 
-import asyncio
 import html
+import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
-import ipywidgets as ipw
+import anywidget
+import traitlets
 
 from pierimpact.checks import InputError
-from pierimpact.teaching.control import Control
-from pierimpact.teaching.live import LiveFigure, LiveWords
-from pierimpact.teaching.markup import GROUND, INK, MUTED, refusal, show, still
+from pierimpact.teaching import browser
+from pierimpact.teaching.markup import show, still
 from pierimpact.teaching.readouts import Readout
-from pierimpact.teaching.scenario import Scenario
+from pierimpact.teaching.scenario import FREQUENCIES, REFERENCE, Scenario
 from pierimpact.teaching.scenario_files import case_text, truck_text
 from pierimpact.teaching.variables import VARIABLES
 
-#: Pause before a redraw, in which the values of a drag that have already arrived are taken in [s].
-PAUSE = 0.01
-
-#: Size of a figure that takes half the room beside the controls [px].
-HALF = (440.0, 236.0)
-
 _HOW_TO_GET_LIVE = (
-    "This is a still picture. For the live explorer, install with "
-    "<code>pip install 'pierimpact[teach]'</code> and run <code>pierimpact teach</code>."
+    "For the live explorer, install with <code>pip install 'pierimpact[teach]'</code> and run "
+    "<code>pierimpact teach</code>."
 )
+# The variables that a column takes the place of, and those of a column.
+_PIER = ("pier_frequency", "pier_mass")
+_COLUMN = ("column_diameter", "column_height", "impact_height", "base", "top")
 
-Views = Mapping[str, LiveFigure | LiveWords]
-#: The readout of a scenario, and the contents of the other views by name.
-Shown = tuple[Readout, Mapping[str, tuple[Any, ...]]]
+#: A chart as `templates/page/figures.mjs` draws it.
+Chart = dict[str, Any]
+
+
+@cache
+def _script() -> str:
+    return browser.script(*browser.WIDGET)
+
+
+class View(anywidget.AnyWidget):
+    """The widget of an explorer."""
+
+    _esm = traitlets.Unicode().tag(sync=True)
+    _css = traitlets.Unicode().tag(sync=True)
+    setup = traitlets.Dict().tag(sync=True)  #: what never changes
+    values = traitlets.Dict().tag(sync=True)  #: of the variables, in SI units
+    contents = traitlets.Dict().tag(sync=True)  #: what is calculated in Python
+    copied: Any = traitlets.List().tag(sync=True)  #: names and contents of files to copy
+
+    @traitlets.default("_esm")
+    def _default_esm(self) -> str:
+        return f"{_script()}export default {{ render: widgetModule.render }};\n"
+
+    @traitlets.default("_css")
+    def _default_css(self) -> str:
+        return browser.stylesheet("explorer")
 
 
 class Explorer:
-    """Controls on the left, views on the right that follow them.
+    """An explorer, calculated and drawn in the browser: it needs Python only to know its values.
 
     Parameters
     ----------
     title : str
         Caption of the still.
-    controls, hidden : list of str
-        Names of the variables on show and in a drawer below, of `pierimpact.teaching.variables`.
-    figures : dict of str to LiveFigure or LiveWords
-        The views beside the readout, by name.
-    draw : callable
-        From a scenario to its readout and the contents of these views, by name. An `InputError`
-        that it raises is shown as a sentence in place of the views.
+    controls : list of str
+        Names of the variables on show beside the charts, of `pierimpact.teaching.variables`.
+    drawers : mapping of str to sequence of str, optional
+        Names of more of them, by the titles of the drawers below.
     defaults : Scenario, optional
         Values to begin with.
+    **setup
+        What else the browser has to know: see the modules.
     """
 
     def __init__(
         self,
         *,
         title: str,
-        controls: list[str],
-        hidden: Sequence[str] = (),
-        figures: Views,
-        draw: Callable[[Scenario], Shown],
+        controls: Sequence[str],
+        drawers: Mapping[str, Sequence[str]] | None = None,
         defaults: Scenario | None = None,
+        **setup: Any,
     ) -> None:
         self.title = title
         self.defaults = defaults or Scenario()
-        self.views: Views = {"readout": LiveWords(), **figures}
-        self.redraws = 0
-        self._draw = draw
-        self._waiting = False
-        self._copied = ipw.HTML()
-        self.controls = {
-            name: Control(VARIABLES[name], getattr(self.defaults, name), self._set)
-            for name in (*controls, *hidden)
+        drawers = {name: list(names) for name, names in (drawers or {}).items()}
+        above = setup.get("above", [])
+        self.controls = [*above, *controls, *(name for names in drawers.values() for name in names)]
+        values = {name: getattr(self.defaults, name) for name in VARIABLES}
+        self._setup = {
+            "title": title,
+            "variables": browser.variables_data(self.controls),
+            "side": list(controls),
+            "drawers": drawers,
+            "defaults": values,
+            **setup,
         }
-        self.message = ipw.HTML()
-        self._body = self._arranged()
-        self.widget = self._assemble(controls, hidden)
-        self.redraw()
-        self._still = self._stills(self._words)
+        self.widget = View(setup=self._setup, values=values)
 
     def scenario(self) -> Scenario:
         """Return the scenario of the controls.
@@ -84,121 +102,133 @@ class Explorer:
         Raises
         ------
         InputError
-            When the value of one is not valid.
+            When the value of one is not valid, by the first property that rests on it.
         """
-        values: dict[str, Any] = {name: control.value for name, control in self.controls.items()}
-        return replace(self.defaults, **values)
+        return replace(self.defaults, **self.widget.values)
 
-    def set(self, **values: float | str) -> None:
-        """Set values by name, in SI units, and redraw."""
-        self._waiting = True  # one redraw for all of them
-        for name, value in values.items():
-            self.controls[name].set(value)
-        self.redraw()
+    def set(self, **values: float | str | None) -> None:
+        """Set values by name, in SI units."""
+        self.widget.values = {**self.widget.values, **values}
 
-    def reset(self, *_: Any) -> None:
+    def reset(self) -> None:
         """Go back to the defaults."""
-        self.set(**{name: getattr(self.defaults, name) for name in self.controls})
-
-    def redraw(self) -> None:
-        """Draw all views at the present values, or show why that cannot be done."""
-        self._waiting = False
-        self.redraws += 1
-        try:
-            readout, contents = self._draw(self.scenario())
-            self._words = readout.words
-            for name, content in {"readout": (readout.html,), **contents}.items():
-                self.views[name].show(*content)
-        except InputError as error:
-            self._refuse(f"{error}.")
-        except (ArithmeticError, ValueError, RuntimeError):
-            # A student must not see a traceback, whatever values break the model.
-            self._refuse("The model has no result for these values. Change one of them.")
-        else:
-            self.message.value = ""
-            self._body.layout.display = None
-
-    def _refuse(self, why: str) -> None:
-        self.message.value = refusal(why)
-        self._body.layout.display = "none"
-
-    def _set(self) -> None:
-        """Follow a control."""
-        self._copied.value = ""
-        self._redraw_soon()
-
-    def _redraw_soon(self) -> None:
-        """Redraw; changes that arrive meanwhile are drawn by the same redraw."""
-        if self._waiting:
-            return
-        try:
-            loop = asyncio.get_running_loop()
-        except RuntimeError:  # outside a kernel
-            self.redraw()
-            return
-        self._waiting = True
-        loop.call_later(PAUSE, self.redraw)
-
-    def copy(self, *_: Any) -> None:
-        """Show the values as a case file, and where needed as a truck file."""
-        try:
-            scenario = self.scenario()
-            truck = truck_text(scenario)
-            parts = [("my-case.yaml", case_text(scenario, "my-truck.toml"))]
-        except InputError as error:
-            self._copied.value = refusal(f"{error}.")
-            return
-        if truck:
-            parts.append(("my-truck.toml", truck))
-        self._copied.value = "".join(
-            f'<div style="font-size:12px;color:{MUTED}">One click selects; copy into '
-            f"<code>{name}</code></div>"
-            f'<pre style="user-select:all;color:{INK};background:{GROUND};padding:8px;'
-            f'font-size:11px;line-height:1.35;overflow:auto;max-height:220px">{html.escape(content)}</pre>'
-            for name, content in parts
-        )
-
-    def _assemble(self, controls: Sequence[str], hidden: Sequence[str]) -> ipw.Widget:
-        rows = [self.controls[name].widget for name in controls]
-        if hidden:
-            drawer = ipw.VBox([self.controls[name].widget for name in hidden])
-            rows.append(ipw.Accordion([drawer], titles=("The truck’s crush laws",)))
-        buttons = [_button("Reset", "undo", "92px", self.reset)]
-        if "column_diameter" in self.controls:
-            buttons.append(_button("Copy as case file", "copy", "160px", self.copy))
-        rows += [ipw.HBox(buttons), self._copied]
-        left = ipw.VBox(rows, layout=ipw.Layout(flex="1 1 250px", max_width="300px"))
-        right = ipw.Layout(flex="4 1 560px", min_width="0")
-        return side_by_side([left, ipw.VBox([self.message, self._body], layout=right)], "20px")
-
-    def _arranged(self) -> ipw.Widget:
-        """Return the views in the order of their names, as many side by side as there is room."""
-        return side_by_side([view.widget for view in self.views.values()])
-
-    def _stills(self, words: str) -> str:
-        """Return the views as HTML that needs nothing else."""
-        return "".join(view.still(words) for view in self.views.values())
+        self.set(**self._setup["defaults"])
 
     @property
     def still(self) -> str:
-        """The views at the default values, as HTML that needs nothing else."""
-        return still(
-            '<figure style="margin:0;max-width:900px"><div '
-            f'style="display:flex;flex-wrap:wrap;gap:4px 8px">{self._still}</div>'
-            f"<figcaption>{html.escape(self.title)}. {_HOW_TO_GET_LIVE}</figcaption></figure>"
-        )
+        """The explorer at its default values, as HTML that needs nothing else."""
+        setup = self._setup | {"values": self._setup["defaults"]}
+        return still(_frame(setup, self.title, ""))
 
     def _ipython_display_(self) -> None:
         show(self.widget, self.still, self.title)
 
 
-def side_by_side(widgets: list[ipw.Widget], gap: str = "8px") -> ipw.Widget:
-    """Return widgets in rows, as many in each as there is room for."""
-    layout = ipw.Layout(display="flex", flex_flow="row wrap", grid_gap=f"4px {gap}")
-    return ipw.Box(widgets, layout=layout)
+class CollisionExplorer(Explorer):
+    """The explorer of one collision, with its place on the spectra if wanted.
+
+    Parameters
+    ----------
+    spectra, energy : bool
+        Whether the spectra stand above, and the energy below.
+    **options
+        As for an `Explorer`.
+    """
+
+    def __init__(self, *, spectra: bool, energy: bool, **options: Any) -> None:
+        material = Scenario().column.values
+        super().__init__(
+            truck=browser.truck_data(REFERENCE),
+            concrete={
+                "elasticModulus": material["E"],
+                "shearModulus": material["kappa"] * material["G"],
+                "density": material["rho"],
+            },
+            range={"low": FREQUENCIES[0], "high": FREQUENCIES[1]},
+            spectra=spectra,
+            energy=energy,
+            facts=True,
+            **({"above": []} | options),
+        )
+        self.widget.on_msg(lambda *_: self.copy())
+        self.widget.observe(self._forget, "values")
+
+    def copy(self) -> None:
+        """Show the values as a case file, and where needed as a truck file."""
+        try:
+            scenario = self.scenario()
+            if scenario.struck_column is None:
+                raise InputError("a case file needs a column: move one of its sliders first")
+            files = [["my-case.yaml", case_text(scenario, "my-truck.toml")]]
+            truck = truck_text(scenario)
+        except InputError as error:
+            self.widget.copied = [["", f"{error}."]]
+            return
+        self.widget.copied = [*files, *([["my-truck.toml", truck]] if truck else [])]
+
+    def _forget(self, _: object) -> None:
+        self.widget.copied = []
 
 
-def _button(words: str, icon: str, width: str, pressed: Callable[..., None]) -> ipw.Button:
-    button = ipw.Button(description=words, icon=icon, layout=ipw.Layout(width=width))
-    button.on_click(pressed)
-    return button
+class ChartExplorer(Explorer):
+    """An explorer whose charts are calculated in Python.
+
+    Parameters
+    ----------
+    draw : callable
+        From a scenario to its readout and its charts. An `InputError` that it raises is shown as a
+        sentence.
+    **options
+        As for an `Explorer`.
+    """
+
+    def __init__(
+        self, *, draw: Callable[[Scenario], tuple[Readout, list[Chart]]], **options: Any
+    ) -> None:
+        super().__init__(contents=True, **options)
+        self._draw = draw
+        self.redraw()
+        self._first = self.widget.contents
+        self.widget.observe(lambda _: self.redraw(), "values")
+
+    def redraw(self) -> None:
+        """Calculate what is shown at the present values, or say why that cannot be done."""
+        refusal = "The model has no result for these values. Change one of them."
+        try:
+            readout, charts = self._draw(self.scenario())
+        except InputError as error:
+            self.widget.contents = {"refusal": f"{error}."}
+        except (ArithmeticError, ValueError, RuntimeError):
+            # A student must not see a traceback, whatever values break the model.
+            self.widget.contents = {"refusal": refusal}
+        else:
+            self.widget.contents = {
+                "charts": charts,
+                "readout": readout.html,
+                "words": readout.words,
+                "refusal": "",
+            }
+
+    @property
+    def still(self) -> str:
+        """The charts at the default values, as HTML that needs nothing else."""
+        values = {"values": self._setup["defaults"], "contents": self._first}
+        return still(_frame(self._setup | values, self.title, self._first["words"]))
+
+
+def _frame(setup: Mapping[str, Any], title: str, words: str) -> str:
+    """Return an explorer as a page in a frame: live where it needs no kernel."""
+    data = json.dumps(setup).replace("<", "\\u003c")
+    start = f"widgetModule.still(document.getElementById('explorer'), {data});"
+    page = (
+        f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(title)}'
+        f"</title><style>body {{ margin: 0; padding: 4px; }}{browser.stylesheet('explorer')}"
+        f'</style></head><body><main id="explorer"></main><script type="module">{_script()}{start}'
+        "</script></body></html>"
+    )
+    return (
+        f'<figure style="margin:0"><iframe title="{html.escape(title)}" sandbox="allow-scripts" '
+        f'style="width:100%;height:46rem;border:0" srcdoc="{html.escape(page)}"></iframe>'
+        f"<figcaption>{html.escape(title)}. {html.escape(words)} {_HOW_TO_GET_LIVE}</figcaption>"
+        "</figure>"
+    )

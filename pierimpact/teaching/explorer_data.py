@@ -11,9 +11,7 @@ from pierimpact.design.codes import code_forces
 from pierimpact.design.procedure import LEVELS, amplification, design_values
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.pier.column import PierColumn
-from pierimpact.plots.amplification import Amplification
-from pierimpact.plots.comparison import Bar
-from pierimpact.plots.style import BODIES, GREEN, GREY
+from pierimpact.plots.style import BODIES
 from pierimpact.symbols import BY_KEY
 from pierimpact.teaching.scenario import SPRING, Scenario
 from pierimpact.vehicle.spread import Uniform
@@ -29,6 +27,35 @@ PARAMETERS = (
     *(BY_KEY[f"{spring}.{name}"] for spring in ("engine_spring", "body_spring") for name in SPRING),
     *(BY_KEY[name] for name in ("engine_mass", "body_mass", "friction_force")),
 )
+
+
+class Amplification(NamedTuple):
+    """The amplification S of one body, each array of shape (n,) over the frequency ratio [-].
+
+    Parameters
+    ----------
+    ratio : ndarray
+        Frequency ratios β.
+    impulse, static : ndarray
+        The limits of S for a soft pier, without damping, and for a stiff one.
+    closed, exact : ndarray
+        S by the closed form, and of the two-degree-of-freedom system.
+    """
+
+    ratio: Array
+    impulse: Array
+    static: Array
+    closed: Array
+    exact: Array
+
+
+class Bar(NamedTuple):
+    """One force; `value` is None where there is none [N]."""
+
+    name: str
+    value: float | None
+    style: str  #: of the bar, by what it is of
+    remark: str
 
 
 class ByHeight(NamedTuple):
@@ -90,15 +117,15 @@ def amplifications(
 def bars(scenario: Scenario) -> list[Bar]:
     """Return the forces of full model, design procedure and codes."""
     found = [
-        Bar(f"Full model, {body}", None if peak is None else peak.reaction, BODIES[body], "")
+        Bar(f"Full model, {body}", None if peak is None else peak.reaction, body, "")
         for body, peak in scenario.history.peaks.items()
     ]
     for level in LEVELS:
         reaction = scenario.design(level).reaction
         remark = f"{reaction / scenario.history.governing_peak.reaction:.2f} × full model"
-        found.append(Bar(f"Design procedure, {level}", reaction, GREEN, remark))
+        found.append(Bar(f"Design procedure, {level}", reaction, "design", remark))
     for code in code_forces(scenario.speed, scenario.truck.mass):
-        found.append(Bar(code.code, code.along.value, GREY, code.along.remark))
+        found.append(Bar(code.code, code.along.value, "code", code.along.remark))
     return found
 
 

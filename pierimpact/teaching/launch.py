@@ -69,7 +69,7 @@ def open_notebooks(
         When JupyterLab, or Voilà, or the widgets are not installed.
     """
     program, notebook = ("voila", "explorer") if app else ("jupyterlab", "01_collision")
-    _need(program, "ipywidgets")
+    _need(program, "anywidget")
     options = [] if browser else ["--no-browser"]
     return _run([program, *options, f"{notebook}.ipynb"], copy_notebooks(folder))
 

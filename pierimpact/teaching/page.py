@@ -1,16 +1,13 @@
 """The explorer as one HTML file that needs neither Python nor a network.
 
-Its program is the JavaScript modules in `templates/page`: `model` has the mechanics, `spectrum` and
-`history` what is calculated with them, `chart` and `picture` what is drawn, `sentences` what is
-said, `questions` and `predictions` what is asked, and `page` what the controls do. All but the last
-two are pure functions that other pages may import; here they are joined into one script.
+Its explorer is that of the notebooks (`browser`); the modules `questions` and `predictions`
+have what is asked, and `page` the page itself.
 """
 
 import base64
 import hashlib
 import json
 import math
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -23,20 +20,15 @@ from pierimpact.checks import InputError, brief
 from pierimpact.files.trucks import MassRange, TruckFile, read_truck_file
 from pierimpact.files.write import write_files
 from pierimpact.pier.equivalent import DAMPING_RATIO
-from pierimpact.plots import style
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY
-from pierimpact.vehicle.crush import CrushSpring
-from pierimpact.vehicle.truck import QUANTITIES, Truck
+from pierimpact.teaching.browser import EXPLORER, script, stylesheet, truck_data, variable_data
+from pierimpact.vehicle.truck import QUANTITIES
 
-#: The modules, each after those that it imports.
-MODULES = (
-    *("model", "spectrum", "history", "chart", "picture"),
-    *("sentences", "questions", "predictions", "page"),
-)
 PIER_MASS = 8e3  # of all piers on the page, as in the lessons on spectra [kg]
 # Frequencies on the page, with the one at first in their middle [Hz], and speeds [km/h].
 _FREQUENCIES, _FREQUENCY = (5.0, 180.0), 30.0
+_NOTCHES = 180  # of the slider of frequencies
 _SPEEDS, _SPEED = (30.0, 120.0), 80.0
 _MASS_STEP = 500.0  # [kg]
 _MASSES = (0.75, 1.5)  # of a truck of which nothing more is known, as shares of its own mass
@@ -84,15 +76,8 @@ def page(trucks: Sequence[TruckFile]) -> str:
         autoescape=True,
         undefined=StrictUndefined,
     )
-    sheet = templates.get_template("page.css.j2").render(
-        ink=style.INK,
-        muted=style.MUTED,
-        pale=style.PALE,
-        engine=style.BODIES["engine"],
-        cargo=style.BODIES["cargo"],
-        cargo_dark=style.SKY,
-    )
-    program = script()
+    sheet = stylesheet("explorer", "page")
+    program = script(*EXPLORER, "questions", "predictions", "page")
     return templates.get_template("page.html.j2").render(
         policy=f"default-src 'none'; script-src {_hash(program)}; style-src {_hash(sheet)}; "
         "base-uri 'none'; form-action 'none'",
@@ -106,53 +91,38 @@ def page(trucks: Sequence[TruckFile]) -> str:
     )
 
 
-def script() -> str:
-    """Return the modules joined into one script, each in a scope of its own."""
-    folder = shipped("templates") / "page"
-    return "".join(
-        _scoped(name, (folder / f"{name}.mjs").read_text(encoding="utf-8")) for name in MODULES
-    )
-
-
-def _scoped(name: str, module: str) -> str:
-    """Return a module as a function's body that returns what it exports."""
-    exported = re.findall(r"^export (?:class|const|function\*?) (\w+)", module, re.MULTILINE)
-    body = re.sub(r"^export ", "", module, flags=re.MULTILINE)
-    imported = r'^import (\{.*\}) from "\./(\w+)\.mjs";$'
-    body = re.sub(imported, r"const \1 = \2Module;", body, flags=re.MULTILINE)
-    returned = ", ".join(exported)
-    return f"const {name}Module = (() => {{\n{body}return {{ {returned} }};\n}})();\n"
-
-
-def truck_data(truck: Truck) -> dict[str, Any]:
-    """Return a truck as the functions of the modules take it, in SI units."""
-    return {
-        "name": truck.name,
-        "engine": _body(truck.engine_mass, truck.engine_spring),
-        "body": _body(truck.body_mass, truck.body_spring),
-        "friction": truck.friction_force,
-        "frictionOnPier": truck.friction_on == "pier",
-    }
-
-
-def _body(mass: float, spring: CrushSpring) -> dict[str, float]:
-    return {
-        "mass": mass,
-        "plateauForce": spring.plateau_force,
-        "plateauLength": spring.plateau_length,
-        "stiffness": spring.stiffness,
-        "unloadingStiffness": spring.unloading_stiffness,
-    }
-
-
 def _data(trucks: Sequence[TruckFile]) -> dict[str, Any]:
     low, high = _FREQUENCIES
+    masses = _masses(trucks[0])
+    step = math.log10(high / low) / _NOTCHES
+    mass = {end: 1e-3 * masses[end] for end in ("low", "high", "step")}
+    variables = {
+        "pier_frequency": variable_data("pier_frequency", low=low, high=high, step=step),
+        "speed": variable_data("speed", low=_SPEEDS[0], high=_SPEEDS[1]),
+        "truck_mass": variable_data("truck_mass", **mass),
+    }
+    for variable in variables.values():
+        del variable["units"], variable["symbol"]  # nothing to type in, and no symbols
+    values = {
+        "pier_frequency": _FREQUENCY,
+        "pier_mass": PIER_MASS,
+        "damping_ratio": DAMPING_RATIO,
+        "speed": _SPEED / 3.6,
+        "truck_mass": masses["first"],
+    }
     return {
         "trucks": [truck_data(file.truck) | {"masses": _masses(file)} for file in trucks],
         "pier": {"mass": PIER_MASS, "dampingRatio": DAMPING_RATIO},
-        "range": {"low": low, "high": high},
-        "speeds": dict(zip(("low", "high"), _SPEEDS, strict=True)),
-        "first": {"frequency": _FREQUENCY, "speed": _SPEED},
+        "setup": {
+            "id": "",
+            "variables": variables,
+            "values": values,
+            "above": ["pier_frequency"],
+            "side": ["speed", "truck_mass"],
+            "drawers": {},
+            "spectra": True,
+            "range": {"low": low, "high": high},
+        },
     }
 
 

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.collision.history import CollisionHistory, Peak
-from pierimpact.plots.schematic import Frame
 from pierimpact.plots.style import BODIES
 from pierimpact.symbols import SYMBOLS
 from pierimpact.teaching import explorer_data, markup
@@ -33,8 +32,13 @@ class Readout(NamedTuple):
 
 
 def force(value: float | None) -> str:
-    """Return a force as it is printed, "none" where there is none."""
-    return "none" if value is None or math.isnan(value) else str(printed(value, "force", "SI"))
+    """Return a force in meganewtons, as in all explorers; "none" where there is none [N]."""
+    return "none" if value is None or math.isnan(value) else f"{1e-6 * value:.2f} MN"
+
+
+def mass(value: float) -> str:
+    """Return a mass in tonnes, as in all explorers [kg]."""
+    return f"{1e-3 * value:.4g} t"
 
 
 def reaction(peak: Peak | None) -> str:
@@ -89,15 +93,6 @@ def outcome(scenario: Scenario) -> str:
     return f"{words}; cargo peak {peak_at(cargo)}. {governs}"
 
 
-def instant(frame: Frame, phase: str) -> str:
-    """Return the time, phase and reaction at one instant of a collision, as HTML."""
-    return paragraph(
-        f'<b style="font-size:16px;padding-right:14px">{1e3 * frame.time:.1f} ms</b>'
-        f"{html.escape(phase)} R = {force(frame.reaction)}.",
-        "font-size:14px",
-    )
-
-
 def collision(scenario: Scenario) -> Readout:
     """Return the values of the pier and of the collision."""
     pier, history = scenario.pier, scenario.history
@@ -129,13 +124,13 @@ def shape(scenario: Scenario) -> Readout:
         _named("kp", pier.stiffness, ", Eq. 3"),
         _named("mp", pier.mass, ", Eq. 1"),
         _named("fp", pier.frequency, ", √(k_p/m_p)/2π"),
-        ("Whole column", printed(whole, "mass", "SI"), "mass per length times height"),
+        ("Whole column", mass(whole), "mass per length times height"),
     )
 
 
 def amplification(scenario: Scenario, values: dict[str, float]) -> Readout:
     """Return the steps from contact speed to reaction beside the full model’s."""
-    heads = ("", "contact speed", "β", "μ", "e", "S", "two degrees of freedom", "full model")
+    heads = ("body", "contact speed", "β", "μ", "e", "S", "two degrees of freedom", "full model")
     rows, words = [], []
     for i, (body, peak) in enumerate(scenario.history.peaks.items(), 1):
         speed, reduced = printed(values[f"v{i}"], "speed", "SI"), values[f"R{i}"]
@@ -185,7 +180,7 @@ def influence(scenario: Scenario, changes: dict[str, NDArray[np.float64] | None]
 def _named(name: str, value: float, remark: str = "") -> tuple[str, object, str]:
     """Return the symbol, the value and the meaning of one of `SYMBOLS`."""
     symbol = SYMBOLS[name]
-    shown = printed(value, symbol.quantity, "SI")
+    shown = mass(value) if symbol.quantity == "mass" else printed(value, symbol.quantity, "SI")
     return markup.symbol(symbol.latex), shown, symbol.meaning + remark
 
 

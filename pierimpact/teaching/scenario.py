@@ -2,26 +2,20 @@
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
+from functools import cached_property
+from typing import Any
 
 from pierimpact.checks import InputError
 from pierimpact.collision.history import CollisionHistory
-from pierimpact.collision.parameters import Collision, parameter_chunks
-from pierimpact.collision.simulate import peak_reactions, simulate
-from pierimpact.design.procedure import design_values
+from pierimpact.collision.parameters import Collision
+from pierimpact.collision.simulate import simulate
 from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.files.trucks import load_truck
 from pierimpact.pier.column import PierColumn, StruckColumn
-from pierimpact.pier.equivalent import EquivalentPier, stiffness_at_frequency
+from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.pier.sections import CircularSection
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.truck import Truck
-
-Array = NDArray[np.float64]
 
 REFERENCE = load_truck("single-unit-8t")
 #: Names of the parameters of a crush law.
@@ -29,34 +23,8 @@ SPRING = tuple(CrushSpring.__dataclass_fields__)
 # A history on show covers so much time at least, and more in steps, so that its axis keeps still
 # while a slider moves [s].
 _SHORTEST, _STEP = 0.16, 0.02
-#: Frequencies of a live spectrum [Hz].
-FREQUENCIES = np.geomspace(2.0, 200.0, 121)
-
-
-class Curves(NamedTuple):
-    """Peak reactions of engine and cargo against pier frequency, shape (n,) [N].
-
-    By the full model, and by the closed formula of the reduction to two degrees of freedom.
-    """
-
-    frequency: Array
-    full: dict[str, Array]
-    reduced: dict[str, Array]
-
-
-@lru_cache(maxsize=16)
-def curves(truck: Truck, speed: float, pier_mass: float, damping_ratio: float) -> Curves:
-    """Return both spectra of a truck; arguments as in `engine_spectrum`."""
-    stiffness = stiffness_at_frequency(pier_mass, FREQUENCIES)
-    peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)
-    _, chunks = parameter_chunks(truck, pier_mass, stiffness, damping_ratio, speed)
-    _, parameters = next(chunks)  # fewer piers than one chunk holds
-    reduced = design_values(parameters, "short")
-    return Curves(
-        frequency=FREQUENCIES,
-        full={"engine": peaks.engine, "cargo": peaks.cargo},
-        reduced={"engine": np.asarray(reduced["R1"]), "cargo": np.asarray(reduced["R2"])},
-    )
+#: Ends of the spectra in the notebooks [Hz].
+FREQUENCIES = 2.0, 200.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,11 +140,6 @@ class Scenario:
     def design(self, level: str) -> DesignReaction:
         """Return the design reaction of the collision by one of the levels."""
         return design_reaction(self.truck, self.pier, self.speed, level)
-
-    @property
-    def curves(self) -> Curves:
-        """Spectra for piers of this mass and damping."""
-        return curves(self.truck, self.speed, self.pier.mass, self.pier.damping_ratio)
 
 
 #: The pier of the lessons on reduction and spectra: between soft and stiff.

@@ -1,9 +1,10 @@
 // The charts, as SVG: pure functions of what they show.
+import { isEnginePeak } from "./spectrum.mjs";
 
 /** Margins of the charts [px]; the slider above the spectra has the same. */
 export const MARGIN = { left: 40, right: 14, top: 26, bottom: 40 };
 const ROUND = [1, 1.2, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10];
-const FREQUENCIES = [1, 2, 5, 10, 20, 50, 100, 200, 500];
+const FREQUENCIES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000];
 const LINE = 16, LETTER = 7; // height of a line, and width of a letter, rather too large [px]
 
 /** An SVG element with its attributes and children. */
@@ -37,11 +38,11 @@ function scale(from, to, first, last) {
   return (value) => first + ((value - from) / (to - from)) * (last - first);
 }
 
-function text(words, x, y, className, anchor = "middle") {
+export function text(words, x, y, className, anchor = "middle") {
   return element("text", { x, y, class: className, "text-anchor": anchor }, words);
 }
 
-function path(places, className) {
+export function path(places, className) {
   let d = "", pen = "M";
   for (const place of places) {
     if (place) d += `${pen}${place[0].toFixed(1)} ${place[1].toFixed(1)}`;
@@ -57,19 +58,21 @@ function mark(body, x, y, className = "mark") {
   return element("rect", { x: x - 5, y: y - 5, width: 10, height: 10, ...attributes });
 }
 
+/** Round values from `low` to `high`, in so many steps at most. */
+export function ticks(low, high, steps) {
+  const least = (high - low) / steps, decade = 10 ** Math.floor(Math.log10(least));
+  const unit = decade * [1, 2, 5, 10].find((n) => n * decade >= 0.999 * least), values = [];
+  for (let n = Math.ceil(low / unit - 1e-9); n * unit <= high + 1e-4 * unit; n++) values.push(n * unit);
+  return values;
+}
+
 /** The axis of forces with its grid, from `bottom` to `top` [N] in so many steps at most. */
 function forceAxis(Y, bottom, top, left, right, steps) {
-  const least = (top - bottom) / steps, decade = 10 ** Math.floor(Math.log10(least));
-  const unit = decade * [1, 2, 5, 10].find((n) => n * decade >= 0.999 * least);
-  const lines = [];
-  for (let n = Math.ceil(bottom / unit); n * unit <= top * 1.0001; n++) {
-    const y = Y(n * unit), value = ((n * unit) / 1e6).toFixed(unit < 1e6 ? 1 : 0);
-    lines.push(
-      element("line", { x1: left, x2: right, y1: y, y2: y, class: n ? "grid" : "axis" }),
-      text(value.replace("-", "−"), left - 7, y + 4, "tick", "end"),
-    );
-  }
-  return lines;
+  const values = ticks(bottom, top, steps), whole = values.every((value) => Math.abs(value / 1e6 % 1) < 1e-9);
+  return values.flatMap((value) => [
+    element("line", { x1: left, x2: right, y1: Y(value), y2: Y(value), class: value ? "grid" : "axis" }),
+    text((value / 1e6).toFixed(whole ? 0 : 1).replace("-", "−"), left - 7, Y(value) + 4, "tick", "end"),
+  ]);
 }
 
 /** What the lines are, above the chart at the right; with their marks where they have some. */
@@ -86,7 +89,7 @@ function key(entries, right, y) {
 }
 
 /** Words on a ground of their own, which are read wherever they stand. */
-function tag(words, x, y, className, anchor) {
+export function tag(words, x, y, className, anchor) {
   const width = LETTER * words.length + 6;
   const left = { start: x - 3, middle: x - 0.5 * width, end: x + 3 - width }[anchor];
   return element("g", {},
@@ -121,7 +124,8 @@ export function drawSpectrum(svg, { points, bands, range, top }) {
   }
   drawing.push(...forceAxis(Y, 0, top, left, right, 7));
   for (const tick of new Set([range.low, ...FREQUENCIES, range.high])) {
-    if (tick < range.low || tick > range.high) continue;
+    const ends = tick === range.low || tick === range.high;
+    if (!ends && (tick < 1.4 * range.low || tick > range.high / 1.4)) continue;
     drawing.push(
       element("line", { x1: x(tick), x2: x(tick), y1: foot, y2: foot + 4, class: "axis" }),
       text(tick, x(tick), foot + 17, "tick"),
@@ -143,11 +147,10 @@ export function drawSpectrum(svg, { points, bands, range, top }) {
 
   const line = (body, shown) =>
     points.map((point) => (shown(point) ? [x(point.frequency), Y(point[body])] : null));
-  const arrives = (point) => point.engineContact !== null;
   drawing.push(
-    path(line("engine", (point) => !arrives(point)), "curve crumpling"),
+    path(line("engine", (point) => !isEnginePeak(point)), "curve crumpling"),
     path(line("cargo", (point) => point.cargo !== null), "curve cargo"),
-    path(line("engine", arrives), "curve engine"),
+    path(line("engine", isEnginePeak), "curve engine"),
   );
   // Every crossing is marked; the last, from which on one peak stays the larger, is named.
   const crossings = bands.filter((band) => band.crossing).map((band) => band.low);
@@ -177,7 +180,7 @@ export function drawHere(svg, { range, top, here }) {
   const beside = bodies.map((body) => Y(here[body]) + (body === upper ? -9 : 19));
   const heights = apart(beside, head + 2 * LINE + 4, foot - LINE - 8);
   bodies.forEach((body, n) => {
-    const kind = body === "engine" && here.engineContact === null ? "crumpling" : body;
+    const kind = body === "engine" && !isEnginePeak(here) ? "crumpling" : body;
     const [x, anchor] = late ? [at - 12, "end"] : [at + 12, "start"];
     marks.push(
       mark(body, at, Y(here[body]), kind === body ? "mark" : "mark crumpling"),
@@ -195,7 +198,7 @@ function valueAt(points, frequency) {
 }
 
 /** Move the heights of two labels apart where they would collide, and into their room. */
-function apart(heights, top, bottom) {
+export function apart(heights, top, bottom) {
   const inside = (y) => Math.min(Math.max(y, top), bottom);
   const [a, b] = heights.map(inside);
   if (b === undefined || Math.abs(a - b) >= LINE) return [a, b];
@@ -210,22 +213,14 @@ function apart(heights, top, bottom) {
  * data: { history: as `follow` returns it, end: of the axis [s], top, bottom: of the axis [N] }.
  */
 export function drawHistory(svg, { history, end, top, bottom }) {
-  const { X, Y, left, right, head, foot } = historyAxes(svg, end, top, bottom);
-  const drawing = forceAxis(Y, bottom, top, left, right, 5);
-  const step = end > 0.35 ? 0.1 : 0.05;
-  for (let n = 0; n * step <= end * 1.001; n++) {
-    const x = X(n * step);
-    drawing.push(
-      element("line", { x1: x, x2: x, y1: foot, y2: foot + 4, class: "axis" }),
-      text(Math.round(1e3 * n * step), x, foot + 16, "tick"),
-    );
-  }
-  const names = [
-    ["engine thin", "on engine"], ["cargo thin", "on cargo"], ["reaction", "reaction"],
-  ];
+  const { X, Y, left, right } = historyAxes(svg, end, top, bottom);
+  const drawing = [...forceAxis(Y, bottom, top, left, right, 5), ...timeAxis(svg, end)];
+  const room = right - left > 300;
+  const names = room
+    ? [["engine thin", "on engine"], ["cargo thin", "on cargo"], ["reaction", "reaction"]]
+    : [["engine thin", "engine"], ["cargo thin", "cargo"], ["reaction", "R"]];
   drawing.push(
-    text("Time after first touch [ms]", 0.5 * (left + right), foot + 31, "label"),
-    text("Force [MN]", 4, 14, "label", "start"),
+    text(room ? "Force [MN]" : "[MN]", 4, 14, "label", "start"),
     ...key(names, right, 14),
   );
   const rows = history.rows.filter((row) => row[0] <= end);
@@ -239,20 +234,57 @@ export function drawHistory(svg, { history, end, top, bottom }) {
   const { outcome } = history;
   for (const body of ["engine", "cargo"]) {
     if (outcome[body] === null) continue;
-    const kind = body === "engine" && outcome.engineContact === null ? "mark crumpling" : "mark";
+    const kind = body === "engine" && !isEnginePeak(outcome) ? "mark crumpling" : "mark";
     drawing.push(mark(body, X(outcome[`${body}Time`]), Y(outcome[body]), kind));
   }
   svg.replaceChildren(...drawing, element("g", { class: "instant" }));
 }
 
-/** Mark an instant [s] on a drawing of `drawHistory`, with the same data. */
-export function drawInstant(svg, { history, end, top, bottom, instant }) {
+/** The axis of time, to its end [s]. */
+function timeAxis(svg, end) {
+  const { X, left, right, foot } = historyAxes(svg, end, 1, 0);
+  const step = [0.05, 0.1, 0.2, 0.5, 1, 2, 5].find((each) => end / each <= 7) ?? end;
+  const drawing = [text("Time after first touch [ms]", 0.5 * (left + right), foot + 31, "label")];
+  for (let n = 0; n * step <= end * 1.001; n++) {
+    const x = X(n * step);
+    drawing.push(
+      element("line", { x1: x, x2: x, y1: foot, y2: foot + 4, class: "axis" }),
+      text(Math.round(1e3 * n * step), x, foot + 16, "tick"),
+    );
+  }
+  return drawing;
+}
+
+/**
+ * Draw where the truck's energy is against time, one share on the other.
+ *
+ * data: { shares: as `energyShares` returns them, end: of the axis [s] }.
+ */
+export function drawEnergy(svg, { shares, end }) {
+  const { X, Y, left, right } = historyAxes(svg, end, 1, 0);
+  const drawing = timeAxis(svg, end), known = shares.filter(({ time }) => time <= end);
+  let below = known.map(() => 0), x = right;
+  for (const name of Object.keys(known[0]).slice(1)) {
+    const above = known.map((share, n) => below[n] + share[name]);
+    const edge = (heights) => known.map(({ time }, n) => `${X(time).toFixed(1)},${Y(heights[n]).toFixed(1)}`);
+    drawing.push(element("polygon", { points: [...edge(above), ...edge(below).reverse()].join(" "), class: `share ${name}` }));
+    below = above;
+  }
+  for (const name of Object.keys(known[0]).slice(1).reverse()) {
+    x -= 7 * name.length;
+    drawing.push(text(name, x, 14, "key", "start"), element("rect", { x: x - 12, y: 5, width: 9, height: 9, class: `share ${name}` }));
+    x -= 19;
+  }
+  for (const share of [0, 0.5, 1]) drawing.push(text(`${100 * share}%`, left - 5, Y(share) + 4, "tick", "end"));
+  svg.replaceChildren(...drawing, element("g", { class: "instant" }));
+}
+
+/** Mark an instant [s] on a drawing of `drawHistory`, with the same data; or with a `line` alone. */
+export function drawInstant(svg, { history, end, top, bottom, instant, line = false }) {
   const { X, Y, head, foot } = historyAxes(svg, end, top, bottom);
-  const x = X(instant);
-  svg.querySelector(".instant").replaceChildren(
-    element("line", { x1: x, x2: x, y1: head, y2: foot, class: "here" }),
-    element("circle", { cx: x, cy: Y(history.at(instant).R), r: 4, class: "now" }),
-  );
+  const x = X(instant), marks = [element("line", { x1: x, x2: x, y1: head, y2: foot, class: "here" })];
+  if (!line) marks.push(element("circle", { cx: x, cy: Y(history.at(instant).R), r: 4, class: "now" }));
+  svg.querySelector(".instant").replaceChildren(...marks);
 }
 
 function historyAxes(svg, end, top, bottom) {

@@ -54,6 +54,31 @@ export function follow(truck, pier, speed, duration) {
   return { outcome, rows, at, reaction };
 }
 
+/**
+ * Where the truck's energy is at each of the rows of `follow`, as shares of all of it: in motion, in
+ * the pier's spring and in the truck's, in crushed metal, and what friction and damping took.
+ */
+export function energyShares(rows, truck, pier, speed) {
+  const { engine, body, friction, frictionOnPier } = truck;
+  const whole = 0.5 * (engine.mass + body.mass) * speed ** 2;
+  let work = 0, rubbed = 0, before = rows[0];
+  return rows.map((row) => {
+    const [time, x1, v1, x2, v2, xp, vp, F1, F2] = row, [, p1, , p2, , pp, , G1, G2] = before;
+    before = row;
+    work += 0.5 * ((F1 + G1) * (x1 - xp - p1 + pp) + (F2 + G2) * (x2 - xp - p2 + pp));
+    const slid = frictionOnPier ? (F2 + G2 > 0 ? x2 - xp - p2 + pp : 0) : x2 - p2;
+    rubbed += friction * Math.abs(slid);
+    const springs = 0.5 * (F1 ** 2 / engine.unloadingStiffness + F2 ** 2 / body.unloadingStiffness);
+    const joules = {
+      motion: 0.5 * (engine.mass * v1 ** 2 + body.mass * v2 ** 2 + pier.mass * vp ** 2),
+      pier: 0.5 * pier.stiffness * xp ** 2, springs, crush: work - springs, friction: rubbed,
+    };
+    const shares = Object.fromEntries(Object.entries(joules).map(([name, value]) => [name, value / whole]));
+    const known = Object.values(shares).reduce((sum, share) => sum + share, 0);
+    return { time, ...shares, damping: 1 - known }; // energy is kept
+  });
+}
+
 /** The cubic with values a, b and rates u, v at the ends of a step h, at the share s of it. */
 function hermite(a, u, b, v, h, s) {
   const r = 1 - s;

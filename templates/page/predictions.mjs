@@ -1,15 +1,5 @@
 // Predictions: questions whose choice is locked before the answer is on show.
-
-/** An HTML element with its properties and children. */
-export function make(name, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(name), properties);
-  made.append(...children);
-  return made;
-}
-
-export function button(words, className, act) {
-  return make("button", { type: "button", textContent: words, className, onclick: act });
-}
+import { button, make } from "./controls.mjs";
 
 /**
  * Ask questions, as `questions` returns them.

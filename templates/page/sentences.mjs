@@ -1,5 +1,6 @@
 // What is on show, in sentences.
 import { force, hertz } from "./chart.mjs";
+import { isEnginePeak } from "./spectrum.mjs";
 
 /** The outcome of one collision, as `simulate` returns it, on a pier of this frequency [Hz]. */
 export function sentence(frequency, outcome) {
@@ -15,7 +16,7 @@ export function sentence(frequency, outcome) {
   if (cargo === null) {
     return `${at} the engine governs, with ${force(engine)}. The cargo stops short of the pier.`;
   }
-  if (endsWithCargo(outcome)) {
+  if (!isEnginePeak(outcome) && cargo >= engine) {
     return `${at} the cargo governs, with ${force(cargo)}. It arrives while the reaction to the `
       + `engine is still rising, at ${force(engine)}.`;
   }
@@ -29,17 +30,12 @@ export function sentence(frequency, outcome) {
 /** What the first of the two peaks is a peak of. */
 export function firstPeak(outcome) {
   if (outcome.engineContact === null) return "Sheet metal";
-  return endsWithCargo(outcome) ? "Until cargo hits" : "Engine’s peak";
-}
-
-/** Whether the reaction to the engine has no peak of its own, for the cargo arrives before it. */
-function endsWithCargo({ engineTime, cargoContact }) {
-  return cargoContact !== null && engineTime >= cargoContact;
+  return isEnginePeak(outcome) ? "Engine’s peak" : "Until cargo hits";
 }
 
 /** How the peaks depend on the frequency, and what governs where: two pieces of text. */
 export function answer({ points, bands }) {
-  const engine = points.filter((point) => point.engineContact !== null);
+  const engine = points.filter(isEnginePeak);
   const cargo = points.filter((point) => point.cargo !== null);
   if (!engine.length && !cargo.length) {
     return ["At this speed crumpling sheet metal stops engine and cargo before they reach any of "

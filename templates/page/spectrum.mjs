@@ -49,6 +49,15 @@ export function* refine(points, collision, tolerance = TOLERANCE) {
   }
 }
 
+/**
+ * Whether the largest reaction before cargo contact is the engine's peak: the engine has struck
+ * before, and the reaction has not gone on rising until the cargo arrived.
+ */
+export function isEnginePeak({ engineContact, engineTime, cargoContact }) {
+  if (engineContact === null || engineContact > engineTime) return false;
+  return cargoContact === null || cargoContact - engineTime > 1e-6 * cargoContact;
+}
+
 /** What governs at a point: "engine", "cargo", or "sheet metal" where the engine stops short. */
 export function governs({ engine, cargo, engineContact }) {
   if (cargo !== null && cargo >= engine) return "cargo";

@@ -173,7 +173,7 @@ LESSON = Lesson(
         "on the column develop until the truck stands still?",
         choices=_CHOICES,
         answer=_spikes,
-        look="Press ▶ and watch Forces: the orange and the blue line are the two springs.",
+        look="Press Play and watch the forces: the orange and the blue line are the two springs.",
     ),
     misconceptions=(
         Misconception(

@@ -160,7 +160,7 @@ LESSON = Lesson(
         "truck strikes it at 80 km/h each time. Which peak of the reaction grows?",
         choices=_CHOICES,
         answer=_grows_with_frequency,
-        look="Move the pier’s natural frequency from left to right and follow both rings.",
+        look="Move the pier’s natural frequency from left to right and follow both marks.",
     ),
     misconceptions=(
         Misconception(

@@ -1,0 +1,61 @@
+// The explorers in a notebook, and their stills, which need no kernel.
+import { Charts } from "./charts.mjs";
+import { button, make } from "./controls.mjs";
+import { Explorer } from "./explorer.mjs";
+
+let count = 0; // of the explorers on a page, whose ids must differ
+
+/** Put an explorer into an element; `told` as it is by an `Explorer`. */
+export function explore(el, setup, told) {
+  const Kind = setup.contents ? Charts : Explorer;
+  const explorer = new Kind(el, { ...setup, id: `explorer${(count += 1)}-` }, told);
+  const reset = button("Reset", "", () => {
+    explorer.set(setup.defaults);
+    told(explorer.values);
+  });
+  explorer.buttons = make("div", { className: "buttons" }, reset);
+  (explorer.panel ?? explorer.$("controls")).append(explorer.buttons);
+  for (const each of el.querySelectorAll("input, select, button, summary")) {
+    each.dataset.lmSuppressShortcuts = "true"; // or JupyterLab would take the arrow keys
+  }
+  return explorer;
+}
+
+/** The still of an explorer: as live as it can be without a kernel. */
+export function still(el, setup) {
+  const explorer = explore(el, setup, () => {});
+  if (setup.contents) explorer.panel.remove();
+}
+
+/** An explorer as a view of a Jupyter widget. */
+export function render({ model, el }) {
+  const setup = { ...model.get("setup"), values: model.get("values") };
+  if (setup.contents) setup.contents = model.get("contents");
+  const explorer = explore(el, setup, (values) => {
+    model.set("values", { ...values });
+    model.save_changes();
+  });
+  const copied = make("div");
+  if (setup.copies) {
+    explorer.buttons.append(button("Copy as case file", "", () => model.send({ copy: true })));
+    explorer.buttons.after(copied);
+  }
+  const take = () => { // but not what has just been given
+    const values = model.get("values");
+    if (Object.keys(values).some((name) => values[name] !== explorer.values[name])) explorer.set(values);
+  };
+  const show = () => explorer.show(model.get("contents"));
+  const showCopied = () => copied.replaceChildren(...model.get("copied").flatMap(([name, content]) => [
+    make("p", { className: "quiet", textContent: name && `One click selects; copy into ${name}` }),
+    make("pre", { textContent: content, tabIndex: 0 }),
+  ]));
+  model.on("change:values", take);
+  model.on("change:contents", show);
+  model.on("change:copied", showCopied);
+  return () => {
+    model.off("change:values", take);
+    model.off("change:contents", show);
+    model.off("change:copied", showCopied);
+    explorer.remove();
+  };
+}
