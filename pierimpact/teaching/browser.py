@@ -2,9 +2,9 @@
 
 The modules are in `templates/page`. `model` has the mechanics, `column` the pier, `spectrum` and
 `history` what is calculated with them; `chart`, `picture` and `figures` draw, `sentences` says it
-in words, `controls` are the sliders. `explorer` joins them to the explorer of a collision, `charts` to
-one whose charts are calculated in Python, and `widget` puts either into a notebook. They are joined
-into one script.
+in words, `controls` are the sliders. `explorer` joins them to the explorer of a collision, `charts`
+to one whose charts are calculated in Python, and `widget` puts either into a notebook. They are
+joined into one script.
 """
 
 import re
