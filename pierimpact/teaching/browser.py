@@ -1,10 +1,10 @@
 """What is drawn in the browser: JavaScript modules, and what Python tells them.
 
 The modules are in `templates/page`. `model` has the mechanics, `column` the pier, `spectrum` and
-`history` what is calculated with them; `chart`, `picture` and `figures` draw, `sentences` says it in
-words, `controls` are the sliders. `explorer` joins them to the explorer of a collision, `charts` to
-one whose charts are calculated in Python, and `widget` puts either into a notebook. They are joined
-into one script.
+`history` what is calculated with them; `chart`, `picture` and `figures` draw, `sentences` has words
+for it, `controls` are the sliders. `explorer` joins them to the explorer of a collision, `charts`
+to one whose charts are calculated in Python, and `widget` puts either into a notebook. They are
+joined into one script.
 """
 
 import re
