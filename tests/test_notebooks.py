@@ -56,7 +56,7 @@ def test_its_own_page_needs_no_network(executed):
     assert not re.search(r"<link\b|@import|url\(|(?:src|href)=&quot;(?!#)", page)
     assert "widget-view" not in page
     page = re.sub(r'srcdoc="[^"]*"', "", page)  # explorers, which are programs
-    prose = "".join(cell.source for cell in executed.cells if cell.cell_type == "markdown")
+    prose = "\n".join(cell.source for cell in executed.cells if cell.cell_type == "markdown")
     formulas = len(re.findall(r"\$\$.+?\$\$|\$[^$\n]+\$", prose, re.DOTALL))
     assert page.count("<math") == formulas
     assert not re.search(
