@@ -135,6 +135,12 @@ class CollisionHistory:
         return cargo if cargo and cargo.reaction > self.engine_peak.reaction else self.engine_peak
 
     @property
+    def lowest(self) -> Peak:
+        """The smallest reaction sampled: the pier swings back, and past its rest it is negative."""
+        sample = int(self.reaction.argmin())
+        return Peak(float(self.reaction[sample]), float(self.time[sample]))
+
+    @property
     def governs(self) -> str:
         """Which of the two peaks is the larger: "engine" or "cargo"."""
         return "engine" if self.governing_peak == self.engine_peak else "cargo"

@@ -61,11 +61,10 @@ def draw_history(history: CollisionHistory, system: str) -> str:
 def _peaks(history: CollisionHistory) -> dict[str, Peak]:
     """Return the peaks there are, and the lowest reaction where it is below zero."""
     peaks = {f"{name.capitalize()} peak": own for name, own in history.peaks.items() if own}
-    lowest = int(np.argmin(history.reaction))
-    if history.reaction[lowest] < 0.0:
+    lowest = history.lowest
+    if lowest.reaction < 0.0:
         # It may lie beyond what was followed.
-        name = "Lowest" if lowest < len(history.time) - 1 else "Lowest so far"
-        peaks[name] = Peak(float(history.reaction[lowest]), float(history.time[lowest]))
+        peaks["Lowest" if lowest.time < history.time[-1] else "Lowest so far"] = lowest
     return peaks
 
 

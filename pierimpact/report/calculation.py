@@ -72,12 +72,6 @@ class Impact:
         return self.history.governing_peak.reaction
 
     @property
-    def lowest(self) -> Peak:
-        """The smallest reaction: the pier swings back, and is negative where it passes its rest."""
-        sample = int(self.history.reaction.argmin())
-        return Peak(float(self.history.reaction[sample]), float(self.history.time[sample]))
-
-    @property
     def member_forces(self) -> MemberForces:
         """Member forces under the reaction as a static force."""
         return self.struck.member_forces(self.reaction)
@@ -85,7 +79,7 @@ class Impact:
     @property
     def reversed_forces(self) -> MemberForces:
         """Member forces under the smallest reaction, as the pier swings back."""
-        return self.struck.member_forces(self.lowest.reaction)
+        return self.struck.member_forces(self.history.lowest.reaction)
 
     @cached_property
     def beam_forces(self) -> MemberForceHistory | None:
@@ -289,6 +283,6 @@ def _with_reversal(case: Case, pier: EquivalentPier) -> CollisionHistory:
     history = simulate(case.truck, pier, case.inputs.speed)
     end = float(history.time[-1])
     # A pier that vibrates freely swings back within a period, and less far ever after.
-    if history.reaction.argmin() == len(history.reaction) - 1:
+    if history.lowest.time == end:
         history = simulate(case.truck, pier, case.inputs.speed, end + 1.0 / pier.frequency)
     return history

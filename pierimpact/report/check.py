@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from pierimpact.plain_text import WIDTH, text_item, text_table
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.outcome import first_results, statement, upper_share, verdict
+from pierimpact.report.outcome import first_results, statement, upper_utilisations, verdict
 from pierimpact.report.results import Results
 from pierimpact.report.warnings import warnings_of
 from pierimpact.units import rounded
@@ -42,9 +42,9 @@ def check_text(name: str, calculation: Calculation) -> str:
 
 
 def _utilisations(calculation: Calculation) -> Iterator[tuple[str, str, str]]:
-    upper = upper_share(calculation)
+    upper = upper_utilisations(calculation)
     for name, ratio in calculation.utilisations.items():
-        at_upper = None if upper is None else ratio * upper
+        at_upper = upper.get(name)
         remark = verdict(ratio, at_upper)
         if at_upper is not None:
             remark += f"; {rounded(at_upper, 3)} at the upper end of the band"

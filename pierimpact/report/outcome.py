@@ -24,7 +24,7 @@ class FirstResult(NamedTuple):
 
 def statement(calculation: Calculation) -> str:
     """Return in a sentence whether the column holds, and how surely."""
-    ratios, upper = calculation.utilisations, upper_share(calculation)
+    ratios, at_upper = calculation.utilisations, upper_utilisations(calculation)
     if not ratios:
         shear, moment = _largest(calculation)
         return (
@@ -36,9 +36,8 @@ def statement(calculation: Calculation) -> str:
     if failing:
         return f"The column does not hold: utilisation {_listed(failing)}.{missing}"
     holds = f"The column holds this truck: utilisation {_listed(ratios)}"
-    if upper is None:
+    if not at_upper:
         return f"{holds}, if the truck is known exactly.{missing}"
-    at_upper = {name: ratio * upper for name, ratio in ratios.items()}
     beyond = {name: ratio for name, ratio in at_upper.items() if ratio > 1.0}
     if beyond:
         return (
@@ -48,10 +47,13 @@ def statement(calculation: Calculation) -> str:
     return f"{holds}; {_listed(at_upper)} at the upper end of the band.{missing}"
 
 
-def upper_share(calculation: Calculation) -> float | None:
-    """Return the upper end of the band over the design reaction; None without a band [-]."""
+def upper_utilisations(calculation: Calculation) -> dict[str, float]:
+    """Return the utilisations in proportion at the band's upper end [-]; empty without a band."""
     band = calculation.band
-    return band.quantiles()[2] / calculation.design_force if band.spread else None
+    if not band.spread:
+        return {}
+    share = band.quantiles()[2] / calculation.design_force
+    return {name: ratio * share for name, ratio in calculation.utilisations.items()}
 
 
 def verdict(ratio: float, at_upper: float | None) -> str:

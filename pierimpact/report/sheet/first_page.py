@@ -17,7 +17,7 @@ from pierimpact.report.outcome import (
     METHODS,
     first_results,
     statement,
-    upper_share,
+    upper_utilisations,
     verdict,
 )
 from pierimpact.report.sheet.section import Section
@@ -75,7 +75,7 @@ class FirstPage(Section):
     def utilisations(self) -> Block | None:
         """Return demand, resistance and utilisation by either method; None without resistance."""
         inputs, result = self.case.inputs, self.calculation
-        upper = upper_share(result)
+        upper = upper_utilisations(result)
         if not result.utilisations:
             return None
         rows: list[list[Inline]] = []
@@ -91,8 +91,7 @@ class FirstPage(Section):
             if resistance is None:
                 rows.append([*cells, "not given", "", "", "not checked"])
                 continue
-            ratio = demand.value / resistance
-            at_upper = None if upper is None else ratio * upper
+            ratio, at_upper = result.utilisations[name], upper.get(name)
             rows.append(
                 [
                     *cells,

@@ -62,7 +62,7 @@ class FullModel(Section):
 
     def history(self) -> Block:
         """Return reaction and contact force against time."""
-        result, history = self.calculation, self.calculation.history
+        history = self.calculation.history
         words = f"The engine peak is {self._peak_words(history.engine_peak)}"
         words += (
             "; there is no cargo peak"
@@ -77,7 +77,7 @@ class FullModel(Section):
                 " (thick) and contact force between truck and pier (thin) against time.",
             ),
             alt=f"Reaction against time. {words}. The lowest is "
-            f"{self._peak_words(result.governing.lowest)}.",
+            f"{self._peak_words(history.lowest)}.",
             svg=draw_history(history, self.system),
         )
 
@@ -101,7 +101,7 @@ class FullModel(Section):
             ]
             for name, contact, peak in peaks
         ]
-        lowest = self.calculation.governing.lowest
+        lowest = history.lowest
         lowest_values = self.number(lowest.reaction, "force"), self.number(lowest.time, "time")
         share = rounded(100.0 * lowest.reaction / self.calculation.design_force, 2)
         words = f"reversal, {share} %" if lowest.reaction < 0.0 else "no reversal"
