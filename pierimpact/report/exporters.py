@@ -52,6 +52,10 @@ class _SheetExporter(TemplateExporter):
     def _default_extra_template_basedirs(self) -> list[str]:
         return [str(shipped("templates"))]
 
+    def get_prefix_root_dirs(self) -> list[str]:
+        """Return no folders of Jupyter's: what is in them could change or replace a template."""
+        return []
+
     def _preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
         # `jupyter nbconvert --execute` executes here: before it there are no outputs.
         nb, resources = super()._preprocess(nb, resources)  # type: ignore[no-untyped-call]

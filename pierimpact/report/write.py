@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from pierimpact.checks import InputError
 from pierimpact.files.case import read_case_file
 from pierimpact.report.results import Results
-from pierimpact.resources import PACKAGE, shipped
+from pierimpact.resources import shipped
 
 #: Modules and classes of the exporters by the endings of their files; slow to import.
 _EXPORTERS = {
@@ -22,12 +22,8 @@ _EXPORTERS = {
     ".pdf": ("pierimpact.report.exporters", "SheetPDFExporter"),
     ".docx": ("pierimpact.report.word", "SheetWordExporter"),
 }
-_KERNEL_ARGUMENTS = [
-    # Lets the kernel, which starts in another folder, import this very package.
-    f"--IPKernelApp.exec_lines=import sys; sys.path.insert(0, {str(PACKAGE.parent)!r})",
-    # An error in a cell is in its output; the interrupt that ends the kernel is none.
-    "--log-level=CRITICAL",
-]
+# An error in a cell is in its output; the interrupt that ends the kernel is none.
+_KERNEL_ARGUMENTS = ["--log-level=CRITICAL"]
 
 
 class ReportError(RuntimeError):
@@ -124,6 +120,7 @@ def _execute(
 ) -> Any:
     """Execute the notebook in the case file's folder and return it."""
     papermill = _import_papermill()
+    isolated = import_module("pierimpact.report.kernel").IsolatedKernelManager
     config = import_module("traitlets.config").Config()
     config.KernelManager.transport_encryption = "auto"  # or else the kernel prints a warning
     started = False
@@ -142,6 +139,7 @@ def _execute(
             resources={"metadata": {"path": str(folder)}},
             extra_arguments=_KERNEL_ARGUMENTS,
             kernel_name="python3",
+            kernel_manager_class=isolated,
             progress_bar=False,
             request_save_on_cell_execute=False,
             shutdown_kernel="immediate",  # it has nothing to save
