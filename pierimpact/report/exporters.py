@@ -48,6 +48,10 @@ class _SheetExporter(TemplateExporter):
     own_mime = ""  #: MIME type of outputs that go into the document unchanged
     pandoc_options: tuple[str, ...]
 
+    @default("optimistic_validation")
+    def _default_optimistic_validation(self) -> bool:
+        return True  # once, rather than around each of nbconvert's preprocessors
+
     @default("extra_template_basedirs")
     def _default_extra_template_basedirs(self) -> list[str]:
         return [str(shipped("templates"))]

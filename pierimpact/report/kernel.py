@@ -1,19 +1,27 @@
-"""The report's kernel, which nothing beside a case file and nothing of the user's reaches.
+"""The kernels of reports, which nothing beside a case file and nothing of the user's reaches.
 
-It starts in Python's isolated mode and in an empty folder of its own, looks for modules where this
-process does, but for the case's folder, and reads no configuration, profile or startup file of
-Jupyter, IPython and matplotlib. Then it enters the case's folder, from which relative paths start.
+A kernel starts while this process still imports what executes notebooks in it, imports what they
+need, and serves one case after the other. It starts in Python's isolated mode and in an empty
+folder of its own, looks for modules where this process does, but for the folders of the cases, and
+reads no configuration, profile or startup file of Jupyter, IPython and matplotlib. Then it enters
+the case's folder, from which relative paths start.
 """
 
 import os
 import sys
 import tempfile
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from queue import Empty
+from typing import Any, Self
 
 from ipykernel.kernelspec import get_kernel_dict
+from jupyter_client.asynchronous.client import AsyncKernelClient
 from jupyter_client.kernelspec import KernelSpec
 from jupyter_client.manager import AsyncKernelManager
+from jupyter_core.utils import run_sync
+from traitlets.config import Config
 
 from pierimpact.resources import PACKAGE
 
@@ -30,15 +38,72 @@ spec = PathFinder.find_spec("pierimpact", [{home}])
 sys.modules["pierimpact"] = module_from_spec(spec)
 spec.loader.exec_module(sys.modules["pierimpact"])
 from pierimpact.report.kernel_process import start
-start({folder})
+start()
 """
+_ENTER = "from pierimpact.report.kernel_process import enter; enter({folder})"
+# An error in a cell is in its output; the interrupt that ends the kernel is none.
+_ARGUMENTS = ["--log-level=CRITICAL"]
+_PATIENCE = 60  # with a kernel that does not answer [s]
+
+
+class Kernels:
+    """Kernels for reports side by side, ended with the block that they are made for.
+
+    Parameters
+    ----------
+    cases : iterable of Path
+        Case files, with absolute paths.
+    ahead : int, optional
+        How many to start at once.
+    """
+
+    def __init__(self, cases: Iterable[Path], ahead: int = 1) -> None:
+        self._folders = {case.parent.resolve() for case in cases}
+        self._all: list[IsolatedKernelManager] = []
+        self._free = [self._start() for _ in range(ahead)]
+
+    def __enter__(self) -> Self:
+        """Return the kernels."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End them all."""
+        for kernel in self._all:
+            self._end(kernel)
+
+    @contextmanager
+    def in_folder(self, folder: Path) -> Iterator[AsyncKernelManager]:
+        """Give a kernel that is in a folder and knows of no notebook before; it has none ended."""
+        kernel = self._free.pop() if self._free else self._start()
+        try:
+            run_sync(kernel.enter)(folder)
+            yield kernel
+        except BaseException:
+            self._end(kernel)
+            raise
+        self._free.append(kernel)
+
+    def _start(self) -> "IsolatedKernelManager":
+        # Or else the kernel prints a warning.
+        config = Config(KernelManager={"transport_encryption": "auto"})
+        kernel = IsolatedKernelManager(config=config)
+        run_sync(kernel.start_kernel)(folders=self._folders, extra_arguments=_ARGUMENTS)
+        self._all.append(kernel)
+        return kernel
+
+    @staticmethod
+    def _end(kernel: "IsolatedKernelManager") -> None:
+        if kernel.has_kernel:
+            run_sync(kernel.shutdown_kernel)(now=True)  # it has nothing to save
 
 
 class IsolatedKernelManager(AsyncKernelManager):
     """Starts isolated kernels, whatever kernels there are of a name."""
 
-    async def start_kernel(self, *, cwd: str, **options: Any) -> None:  # type: ignore[override]
-        """Start a kernel that enters the folder `cwd` once it has begun."""
+    async def start_kernel(  # type: ignore[override]
+        self, *, folders: set[Path], **options: Any
+    ) -> None:
+        """Start a kernel that takes no module from these folders."""
         self._private = tempfile.TemporaryDirectory(
             prefix="pierimpact-kernel-", ignore_cleanup_errors=True
         )
@@ -46,13 +111,33 @@ class IsolatedKernelManager(AsyncKernelManager):
         self.connection_file = str(private / "connection.json")
         (private / "matplotlibrc").touch()  # the first that is looked for
         code = _START.format(
-            paths=_literal(_module_paths(Path(cwd))),
-            home=_literal(str(PACKAGE.parent)),
-            folder=_literal(cwd),
+            paths=_literal(_module_paths(folders)), home=_literal(str(PACKAGE.parent))
         )
         command = [sys.executable, "-I", "-c", code, "-f", "{connection_file}"]
         self._kernel_spec = KernelSpec(**(get_kernel_dict() | {"argv": command}))
         await super().start_kernel(cwd=str(private), env=_environment(private), **options)
+
+    async def enter(self, folder: Path) -> None:
+        """Let the kernel forget what it ran, and enter a folder.
+
+        Raises
+        ------
+        RuntimeError
+            When it does not answer.
+        """
+        client: AsyncKernelClient = self.client()
+        client.start_channels(iopub=False, stdin=False, hb=False, control=False)
+        client.execute(_ENTER.format(folder=_literal(str(folder))), silent=True)
+        try:
+            for _ in range(_PATIENCE):
+                with suppress(Empty):
+                    await client.get_shell_msg(timeout=1.0)
+                    return
+                if not await self.is_alive():
+                    break
+        finally:
+            client.stop_channels()
+        raise RuntimeError("the kernel did not start")
 
     async def cleanup_resources(self, restart: bool = False) -> None:  # type: ignore[override]
         """Remove the kernel's own folder too."""
@@ -61,11 +146,10 @@ class IsolatedKernelManager(AsyncKernelManager):
             self._private.cleanup()
 
 
-def _module_paths(case_folder: Path) -> list[str]:
-    """Return where this process looks for modules, without the case's folder."""
-    case_folder = case_folder.resolve()
+def _module_paths(folders: set[Path]) -> list[str]:
+    """Return where this process looks for modules, without these folders."""
     paths = map(os.path.abspath, sys.path)
-    return [path for path in paths if Path(path).resolve() != case_folder]
+    return [path for path in paths if Path(path).resolve() not in folders]
 
 
 def _literal(value: str | list[str]) -> str:

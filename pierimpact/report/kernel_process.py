@@ -5,6 +5,7 @@ from importlib import import_module
 from typing import Any
 
 from ipykernel.kernelapp import IPKernelApp
+from IPython import get_ipython
 
 
 class IsolatedKernel(IPKernelApp):
@@ -20,8 +21,13 @@ class IsolatedKernel(IPKernelApp):
         """Run no startup file."""
 
 
-def start(folder: str) -> None:
-    """Become a kernel that runs notebooks in a folder; return when it ends."""
-    import_module("matplotlib")  # reads its settings, and there may be others in the folder
-    os.chdir(folder)
+def start() -> None:
+    """Become a kernel that has imported what a report needs; return when it ends."""
+    import_module("pierimpact.report.sheet")
     IsolatedKernel.launch_instance()
+
+
+def enter(folder: str) -> None:
+    """Forget what was run before, and enter a folder."""
+    os.chdir(folder)
+    get_ipython().reset()
