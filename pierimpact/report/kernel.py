@@ -30,7 +30,7 @@ spec = PathFinder.find_spec("pierimpact", [{home}])
 sys.modules["pierimpact"] = module_from_spec(spec)
 spec.loader.exec_module(sys.modules["pierimpact"])
 from pierimpact.report.kernel_process import start
-start({folder})
+start({folder}, {private}, {starter})
 """
 
 
@@ -49,6 +49,8 @@ class IsolatedKernelManager(AsyncKernelManager):
             paths=_literal(_module_paths(Path(cwd))),
             home=_literal(str(PACKAGE.parent)),
             folder=_literal(cwd),
+            private=_literal(str(private)),
+            starter=os.getpid(),
         )
         command = [sys.executable, "-I", "-c", code, "-f", "{connection_file}"]
         self._kernel_spec = KernelSpec(**(get_kernel_dict() | {"argv": command}))
