@@ -24,12 +24,13 @@ from pierimpact import cli
 from pierimpact.checks import InputError
 from pierimpact.design.codes import KIP
 from pierimpact.files.case import read_case_file
+from pierimpact.files.unchanged import RECORD
 from pierimpact.report import batch as batch_module
-from pierimpact.report.batch import OutputError, find_cases, write_reports
+from pierimpact.report.batch import find_cases, write_reports
 from pierimpact.report.calculation import calculate
 from pierimpact.report.results import Results
 from pierimpact.report.summary import Row, no_formula, summary_blocks, summary_csv
-from pierimpact.report.write import Report, ReportError, stages
+from pierimpact.report.write import OutputError, Report, ReportError, stages
 from pierimpact.units import QUANTITIES, parse, printed, rounded
 
 ROOT = Path(__file__).parent.parent
@@ -157,7 +158,7 @@ def test_each_good_case_has_its_report_and_all_a_summary(made):
     names = ["P 1 & <b>", "A"]
     assert [report.pdf.stem for report in result.reports] == names
     expected = {f"{name}.{ending}" for name in names for ending in ("ipynb", "html", "pdf")}
-    expected |= {f"summary.{ending}" for ending in ("html", "pdf", "csv")} | {"binder.pdf"}
+    expected |= {f"summary.{ending}" for ending in ("html", "pdf", "csv")} | {"binder.pdf", RECORD}
     assert {path.name for path in output.iterdir()} == expected
     assert set(result.summary) - {None} == {
         output / f"summary.{end}" for end in ("html", "pdf", "csv")
@@ -496,7 +497,7 @@ def test_exit_codes(tmp_path, monkeypatch, capsys, outcomes, code):
     names = "abc"[: len(outcomes)]
     cases = [write_case(tmp_path / f"{name}.yaml") for name in names]
 
-    def write(case, output, docx, kernels, on_stage):
+    def write(case, output, docx, force, kernels, on_stage):
         if error := outcomes[names.index(case.stem)]:
             raise error
         files = (output / f"{case.stem}.{ending}" for ending in ("ipynb", "html", "pdf"))
@@ -530,7 +531,7 @@ def test_one_case_has_no_summary(tmp_path, monkeypatch):
 def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
     cases = [write_case(tmp_path / f"{name}.yaml") for name in "ab"]
 
-    def write(case, output, docx, kernels, on_stage):
+    def write(case, output, docx, force, kernels, on_stage):
         return Report(Path("x.ipynb"), Path("x.html"), Path("x.pdf"), [], results_of(case))
 
     def fail(rows):
@@ -584,7 +585,7 @@ def test_ctrl_c_leaves_whole_reports_only(tmp_path):
     os.killpg(process.pid, signal.SIGINT)
     _, errors = process.communicate(timeout=600)  # only a hang takes that long
     assert process.returncode == 130
-    left = {path.name for path in output.iterdir()}
+    left = {path.name for path in output.iterdir()} - {RECORD}
     stems = {name.partition(".")[0] for name in left}
     assert left == {f"{stem}.{ending}" for stem in stems for ending in ("ipynb", "html", "pdf")}
     assert 1 <= len(stems) < 8

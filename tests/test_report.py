@@ -22,6 +22,7 @@ from word_file import WordFile
 
 from pierimpact.checks import InputError
 from pierimpact.files.case import read_case_file
+from pierimpact.files.unchanged import RECORD
 from pierimpact.report import write as report_module
 from pierimpact.report.calculation import calculate
 from pierimpact.report.document.blocks import TitleBlock
@@ -110,7 +111,7 @@ def test_the_files_of_a_report_and_nothing_else(made):
     names = {f"{case.stem}.{ending}" for ending in ("ipynb", "html", "pdf")}
     if case.stem == "us":
         names.add("us.docx")
-    assert {path.name for path in files.pdf.parent.iterdir()} == names
+    assert {path.name for path in files.pdf.parent.iterdir()} == names | {RECORD}
     assert {path.name for path in files.files} == names
     assert files.warnings == []
 
@@ -510,11 +511,11 @@ def test_a_failing_notebook_is_kept_and_named(si, tmp_path, monkeypatch):
     before.parent.mkdir()
     before.write_bytes(b"of the last time")
     with pytest.raises(ReportError, match="ValueError: the last cell") as caught:
-        write_report(si[0], tmp_path / "out")
+        write_report(si[0], tmp_path / "out", force=True)
     kept = tmp_path / "out" / "tti-column.failed.ipynb"
     assert str(kept) in str(caught.value)
     assert "\n" not in str(caught.value)
-    assert sorted(before.parent.iterdir()) == [kept, before]
+    assert sorted(before.parent.iterdir()) == [before.with_name(RECORD), kept, before]
     assert before.read_bytes() == b"of the last time"
     assert nbformat.read(kept, 4).cells[-1].outputs[0].ename == "ValueError"
 
@@ -557,7 +558,8 @@ def test_a_failing_conversion_leaves_no_half_report(si, tmp_path, monkeypatch):
     monkeypatch.setattr("pierimpact.report.exporters.shipped", lambda _: templates)
     with pytest.raises(ReportError, match="unknown variable: nonsense"):
         write_report(si[0], tmp_path / "out")
-    assert [path.name for path in (tmp_path / "out").iterdir()] == ["tti-column.failed.ipynb"]
+    left = {path.name for path in (tmp_path / "out").iterdir()}
+    assert left == {"tti-column.failed.ipynb", RECORD}
 
 
 def test_the_stored_notebook_has_no_outputs():

@@ -1,4 +1,4 @@
-import subprocess
+from pathlib import Path
 
 import pytest
 
@@ -11,25 +11,28 @@ from pierimpact.teaching import launch as teach
 def started(monkeypatch):
     calls = []
 
-    def run(arguments, **options):
-        calls.append((arguments[1:], options["cwd"]))
-        return subprocess.CompletedProcess(arguments, 3)
+    def execve(program, arguments, environment):
+        calls.append((arguments[1:], Path.cwd()))
+        raise SystemExit(3)
 
-    monkeypatch.setattr(teach.subprocess, "run", run)
+    monkeypatch.chdir(Path.cwd())  # which is undone at the end
+    monkeypatch.setattr(teach.os, "execve", execve)
     monkeypatch.setattr(teach, "_need", lambda *_: None)
     return calls
 
 
 def test_the_readers_own_copies_are_opened(tmp_path, started):
     folder = tmp_path / "course"
-    assert teach.open_notebooks(folder, browser=False) == 3
+    with pytest.raises(SystemExit, match="3"):
+        teach.open_notebooks(folder, browser=False)
     assert started == [(["-m", "jupyterlab", "--no-browser", "01_collision.ipynb"], folder)]
     names = {file.name for file in folder.iterdir()}
     assert {"01_collision.ipynb", "06_limits.ipynb", "tti-column.yaml"} <= names
 
 
 def test_the_app_shows_the_explorer(tmp_path, started):
-    teach.open_notebooks(tmp_path, app=True)
+    with pytest.raises(SystemExit, match="3"):
+        teach.open_notebooks(tmp_path, app=True)
     assert started == [(["-m", "voila", "explorer.ipynb"], tmp_path)]
 
 
@@ -56,7 +59,8 @@ def test_a_missing_package_is_named(monkeypatch):
 )
 def test_the_command_opens_the_readers_copies(options, program, tmp_path, started):
     folder = tmp_path / "mine"
-    assert cli.main(["teach", *options, "--folder", str(folder), "--no-browser"]) == 3
+    with pytest.raises(SystemExit, match="3"):
+        cli.main(["teach", *options, "--folder", str(folder), "--no-browser"])
     [(arguments, where)] = started
     assert program in arguments
     assert "--no-browser" in arguments

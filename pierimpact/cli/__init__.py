@@ -1,31 +1,47 @@
 """The command line: a file for each group of commands."""
 
 import argparse
-import os
 import sys
 from collections.abc import Sequence
 
 import pierimpact
 from pierimpact.checks import InputError
 from pierimpact.cli import cases, files, fit, teach
+from pierimpact.cli.ending import drop_output, print_anything, signals_as_interrupts
 from pierimpact.cli.terminal import complain
+from pierimpact.files.write import written
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code: 2 for bad input, 1 for any other failure."""
-    options = parser().parse_args(arguments)
+    print_anything()
+    before = len(written)
+    with signals_as_interrupts() as ending:
+        try:
+            return _run(arguments)
+        except InputError as error:
+            complain(error)
+            return 2
+        except KeyboardInterrupt as interrupt:
+            left = ", ".join(f"{path} written" for path in written[before:])
+            complain(f"interrupted, {str(interrupt) or left or 'nothing written'}")
+            return 128 + ending.signal
+        except BrokenPipeError:  # whoever reads the output, such as head, has enough
+            drop_output()
+            return 1
+        except OSError as error:
+            drop_output()
+            complain(error)
+            return 1
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     try:
+        options = parser().parse_args(arguments)
         code: int = options.run(options)
-        sys.stdout.flush()
-    except InputError as error:
-        complain(error)
-        return 2
-    except KeyboardInterrupt as interrupt:
-        complain(f"interrupted, {interrupt or 'nothing written'}")
-        return 130
-    except BrokenPipeError:  # whoever reads the output, such as head, has enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
+    finally:
+        if sys.stdout:
+            sys.stdout.flush()
     return code
 
 

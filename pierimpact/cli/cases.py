@@ -17,6 +17,11 @@ the case file. Where there are more cases than one, summary.html, summary.pdf an
 a row for each. If a case fails, the others are still calculated; it is reported at the end. With
 --docx, each sheet and the summary are Word documents too; with --binder, binder.pdf has contents,
 summary and all sheets.
+
+A report that is there already is replaced, all of its files or none. If somebody has changed one
+of them since, or written a file of that name, nothing is written, unless --force is given. Which
+files are as they were written is known from their SHA-256 in the hidden file .pierimpact.json of
+the folder.
 """
 _EXIT_CODES = """\
 Exit code: 0 if every case has its report; 2 if all failures are bad input; 1 if anything else
@@ -51,6 +56,7 @@ def add_report(commands: Any) -> None:
         help="calculate cases and write their reports",
         description=_REPORT,
         epilog=_EXIT_CODES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     report.add_argument("cases", **_CASES)
     report.add_argument(
@@ -59,6 +65,9 @@ def add_report(commands: Any) -> None:
     report.add_argument("--docx", action="store_true", help="write Word documents too")
     report.add_argument(
         "--binder", action="store_true", help="write binder.pdf too: all sheets in one, bookmarked"
+    )
+    report.add_argument(
+        "--force", action="store_true", help="replace files that somebody changed, too"
     )
     report.set_defaults(run=_report)
 
@@ -99,7 +108,9 @@ def _report(options: argparse.Namespace) -> int:
     except ModuleNotFoundError as error:
         return needs("reports", error)
     cases = find_cases(options.cases, binder=options.binder)
-    batch = write_reports(cases, options.output, docx=options.docx, binder=options.binder)
+    batch = write_reports(
+        cases, options.output, docx=options.docx, binder=options.binder, force=options.force
+    )
     for report in batch.reports:
         print(*report.files, sep="\n")
     if batch.summary:

@@ -4,8 +4,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from pierimpact.checks import InputError
 from pierimpact.cli.terminal import complain, needs
+from pierimpact.files.write import write_files
 from pierimpact.teaching.launch import DEFAULT_FOLDER, TeachError, open_notebooks
 
 _COLLECT = """\
@@ -101,10 +101,7 @@ def _collect(options: argparse.Namespace) -> int:
     from pierimpact.teaching.marks import collect
 
     marks = collect(options.folder)
-    try:
-        Path(options.csv).write_text(marks.table, encoding="utf-8", newline="")
-    except OSError as error:
-        raise InputError(f"{options.csv} cannot be written to: {error.strerror}") from None
+    write_files({Path(options.csv): marks.table.encode()})
     print(f"{options.csv}: students {marks.students}, files read {marks.files}", flush=True)
     for remark in marks.remarks:
         complain(remark)

@@ -2,12 +2,14 @@
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 
 def complain(message: object) -> None:
     """Print a message to the standard error stream."""
-    print(f"pierimpact: {message}", file=sys.stderr)
+    if sys.stderr:
+        with suppress(OSError):  # nobody reads it
+            print(f"pierimpact: {message}", file=sys.stderr)
 
 
 def needs(what: str, error: ModuleNotFoundError) -> int:

@@ -1,6 +1,7 @@
 """Several cases: a report of each, some at a time, and a summary of all of them."""
 
 import os
+import unicodedata
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from importlib import import_module
@@ -12,15 +13,15 @@ from tqdm import tqdm
 
 from pierimpact.checks import InputError
 from pierimpact.files.find import find_case_files
+from pierimpact.files.unchanged import put_unchanged, refuse_changed
 from pierimpact.report.summary import Row, summary_blocks, summary_csv
 from pierimpact.report.write import (
-    OutputError,
     Report,
     ReportError,
     convert,
+    files_of,
     folder_for,
     import_libraries,
-    put_in_place,
     reason_of,
     stages,
     start_kernels,
@@ -91,6 +92,7 @@ def write_reports(
     *,
     docx: bool = False,
     binder: bool = False,
+    force: bool = False,
     progress: bool = True,
 ) -> Batch:
     """Write the report of each case and, of more than one, summary.html, .pdf and .csv.
@@ -108,32 +110,43 @@ def write_reports(
         Whether to write each sheet, and the summary, as a Word document too.
     binder : bool, optional
         Whether to write binder.pdf too: contents, summary and all sheets in one, with bookmarks.
+    force : bool, optional
+        Whether to replace files that somebody changed since they were written.
     progress : bool, optional
         Whether to show a progress bar if the output is a terminal.
 
     Raises
     ------
-    OutputError
-        When the folder cannot be written to.
+    InputError
+        When somebody changed files that would be replaced, or the folder cannot be written to,
+        which is an OutputError; nothing is written.
     KeyboardInterrupt
-        When interrupted; it says how many reports were written, each of them whole.
+        When interrupted; it says how many reports were written, if any, each of them whole.
     """
     output_dir = Path(output_dir).absolute()
-    results = _write_all(cases, output_dir, docx, progress)
+    _refuse_to_overwrite(cases, output_dir, docx, binder, force)
+    results = _write_all(cases, output_dir, docx, force, progress)
     reports = [result for result in results if isinstance(result, Report)]
     failures = [result for result in results if isinstance(result, Failure)]
     batch = Batch(reports, failures, None)
-    if len(cases) > 1 and reports:
-        try:
-            batch = batch._replace(summary=_write_summary(results, output_dir, docx))
-        except Exception as error:
-            batch = batch._replace(summary_failure=f"the summary: {_line(reason_of(error))}")
-    if binder and reports:
-        try:
-            batch = batch._replace(binder=_write_binder(results, output_dir))
-        except Exception as error:
-            batch = batch._replace(binder_failure=f"the binder: {_line(reason_of(error))}")
+    try:
+        if len(cases) > 1 and reports:
+            try:
+                batch = batch._replace(summary=_write_summary(results, output_dir, docx, force))
+            except Exception as error:
+                batch = batch._replace(summary_failure=f"the summary: {_line(reason_of(error))}")
+        if binder and reports:
+            try:
+                batch = batch._replace(binder=_write_binder(results, output_dir, force))
+            except Exception as error:
+                batch = batch._replace(binder_failure=f"the binder: {_line(reason_of(error))}")
+    except KeyboardInterrupt:
+        raise _interrupted(len(reports), len(cases)) from None
     return batch
+
+
+def _interrupted(written: int, cases: int) -> KeyboardInterrupt:
+    return KeyboardInterrupt(*([f"{written} of {cases} reports written"] if written else []))
 
 
 def _refuse_same_names(cases: Sequence[Path], binder: bool) -> None:
@@ -141,8 +154,8 @@ def _refuse_same_names(cases: Sequence[Path], binder: bool) -> None:
     owners: dict[str, Path] = {}
     for case in cases:
         for name in (case.stem, f"{case.stem}.failed"):
-            # Not all systems tell upper from lower case.
-            other = owners.setdefault(name.casefold(), case)
+            # Not all systems tell upper from lower case, or é from e with an accent.
+            other = owners.setdefault(unicodedata.normalize("NFC", name).casefold(), case)
             if other != case:
                 raise InputError(
                     f"{other} and {case} would write files of the same name: rename one"
@@ -153,12 +166,31 @@ def _refuse_same_names(cases: Sequence[Path], binder: bool) -> None:
             raise InputError(f"{case} would overwrite the binder of the cases: rename it")
 
 
+def _refuse_to_overwrite(
+    cases: Sequence[Path], output_dir: Path, docx: bool, binder: bool, force: bool
+) -> None:
+    """Refuse an output folder where anything must not be replaced, or nothing can be written."""
+    names = [file for case in cases for file in files_of(case.stem, docx)]
+    if len(cases) > 1:
+        names += _summary_files(docx)
+    if binder:
+        names.append(f"{BINDER}.pdf")
+    there = next(path for path in (output_dir, *output_dir.parents) if path.exists())
+    with folder_for(there):
+        pass
+    refuse_changed(output_dir, names, force=force)
+
+
+def _summary_files(docx: bool) -> list[str]:
+    return [f"{SUMMARY}.{ending}" for ending in ("html", "pdf", "csv", "docx")[: 3 + docx]]
+
+
 class _Stopped(BaseException):
     """Ends a report in progress: not an error of its own, and so not kept as one."""
 
 
 def _write_all(
-    cases: Sequence[Path], output_dir: Path, docx: bool, progress: bool
+    cases: Sequence[Path], output_dir: Path, docx: bool, force: bool, progress: bool
 ) -> list[Report | Failure]:
     """Return the report or failure of each case, in order."""
     stop, lock, stages_of_each = Event(), Lock(), stages(docx)
@@ -176,7 +208,7 @@ def _write_all(
                 left -= 1
 
         try:
-            results[case] = _write_one(case, output_dir, docx, kernels, on_stage)
+            results[case] = _write_one(case, output_dir, docx, force, kernels, on_stage)
         finally:
             with lock:
                 bar.update(left)
@@ -205,22 +237,29 @@ def _write_all(
             executor.shutdown(cancel_futures=True)
             if isinstance(error, KeyboardInterrupt):
                 written = sum(isinstance(result, Report) for result in results.values())
-                raise KeyboardInterrupt(f"{written} of {len(cases)} reports written") from None
+                raise _interrupted(written, len(cases)) from None
             raise
     return [results[case] for case in cases]
 
 
 def _write_one(
-    case: Path, output_dir: Path, docx: bool, kernels: "Kernels", on_stage: Callable[[], object]
+    case: Path,
+    output_dir: Path,
+    docx: bool,
+    force: bool,
+    kernels: "Kernels",
+    on_stage: Callable[[], object],
 ) -> Report | Failure:
     """Return the report or failure of a case."""
     try:
-        return write_report(case, output_dir, docx=docx, kernels=kernels, on_stage=on_stage)
-    except OutputError:
-        raise  # it is the same for all cases
+        return write_report(
+            case, output_dir, docx=docx, force=force, kernels=kernels, on_stage=on_stage
+        )
     except (InputError, ReportError) as error:
         return Failure(case, _line(error), bad_input=isinstance(error, InputError))
-    except Exception as error:
+    except (_Stopped, KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:  # others derive panics and the like from it
         return Failure(case, f"{case.name}: {_line(reason_of(error))}", bad_input=False)
     finally:
         _close_event_loop()
@@ -248,25 +287,26 @@ def _rows(results: Sequence[Report | Failure]) -> list[Row]:
     ]
 
 
-def _write_summary(results: Sequence[Report | Failure], output_dir: Path, docx: bool) -> Summary:
+def _write_summary(
+    results: Sequence[Report | Failure], output_dir: Path, docx: bool, force: bool
+) -> Summary:
     """Write the summary in all its formats, all or none."""
     notebook_of = import_module("pierimpact.report.exporters").notebook_of  # slow to import
     rows = _rows(results)
-    with folder_for(output_dir, SUMMARY) as folder:
-        endings = ("html", "pdf", "csv", "docx")[: None if docx else -1]
-        html, pdf, csv, *word = (folder / f"{SUMMARY}.{ending}" for ending in endings)
+    with folder_for(output_dir) as folder:
+        html, pdf, csv, *word = (folder / file for file in _summary_files(docx))
         convert(notebook_of(summary_blocks(rows)), (html, pdf, *word))
         csv.write_bytes(summary_csv(rows).encode("utf-8"))
-        return Summary(*put_in_place((html, pdf, csv, *word), output_dir))
+        return Summary(*put_unchanged((html, pdf, csv, *word), output_dir, force=force))
 
 
-def _write_binder(results: Sequence[Report | Failure], output_dir: Path) -> Path:
+def _write_binder(results: Sequence[Report | Failure], output_dir: Path, force: bool) -> Path:
     """Write the binder of all sheets, and of the summary where there are more than one."""
     bound = import_module("pierimpact.report.binder").bound_reports  # slow to import
     reports = [result for result in results if isinstance(result, Report)]
-    with folder_for(output_dir, BINDER) as folder:
+    with folder_for(output_dir) as folder:
         binder = folder / f"{BINDER}.pdf"
         summary = summary_blocks(_rows(results))
         binder.write_bytes(bound(reports, summary, with_summary=len(results) > 1))
-        (in_place,) = put_in_place((binder,), output_dir)
+        (in_place,) = put_unchanged((binder,), output_dir, force=force)
         return in_place

@@ -379,7 +379,11 @@ def compile_typst(
                 return pdf, missing
             inputs["settled"] = "yes"
             continue
-        except typst.TypstError as error:
+        except BaseException as error:
+            if not isinstance(error, Exception) and type(error).__name__ == "PanicException":
+                raise RuntimeError(f"Typst stopped: {error}") from None
+            if not isinstance(error, typst.TypstError):
+                raise
             found = sorted(set(_undisplayed(error)) - set(missing))
             if not found:
                 raise

@@ -17,7 +17,6 @@ from queue import Empty
 from typing import Any, Self
 
 from ipykernel.kernelspec import get_kernel_dict
-from jupyter_client.asynchronous.client import AsyncKernelClient
 from jupyter_client.kernelspec import KernelSpec
 from jupyter_client.manager import AsyncKernelManager
 from jupyter_core.utils import run_sync
@@ -38,7 +37,7 @@ spec = PathFinder.find_spec("pierimpact", [{home}])
 sys.modules["pierimpact"] = module_from_spec(spec)
 spec.loader.exec_module(sys.modules["pierimpact"])
 from pierimpact.report.kernel_process import start
-start()
+start({private}, {starter})
 """
 _ENTER = "from pierimpact.report.kernel_process import enter; enter({folder})"
 # An error in a cell is in its output; the interrupt that ends the kernel is none.
@@ -81,6 +80,8 @@ class Kernels:
         except BaseException:
             self._end(kernel)
             raise
+        finally:
+            kernel.disconnect()
         self._free.append(kernel)
 
     def _start(self) -> "IsolatedKernelManager":
@@ -95,10 +96,15 @@ class Kernels:
     def _end(kernel: "IsolatedKernelManager") -> None:
         if kernel.has_kernel:
             run_sync(kernel.shutdown_kernel)(now=True)  # it has nothing to save
+        run_sync(kernel.cleanup_resources)()
 
 
 class IsolatedKernelManager(AsyncKernelManager):
     """Starts isolated kernels, whatever kernels there are of a name."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(**options)
+        self._clients: list[Any] = []
 
     async def start_kernel(  # type: ignore[override]
         self, *, folders: set[Path], **options: Any
@@ -111,7 +117,10 @@ class IsolatedKernelManager(AsyncKernelManager):
         self.connection_file = str(private / "connection.json")
         (private / "matplotlibrc").touch()  # the first that is looked for
         code = _START.format(
-            paths=_literal(_module_paths(folders)), home=_literal(str(PACKAGE.parent))
+            paths=_literal(_module_paths(folders)),
+            home=_literal(str(PACKAGE.parent)),
+            private=_literal(str(private)),
+            starter=os.getpid(),
         )
         command = [sys.executable, "-I", "-c", code, "-f", "{connection_file}"]
         self._kernel_spec = KernelSpec(**(get_kernel_dict() | {"argv": command}))
@@ -125,19 +134,27 @@ class IsolatedKernelManager(AsyncKernelManager):
         RuntimeError
             When it does not answer.
         """
-        client: AsyncKernelClient = self.client()
+        client = self.client()
         client.start_channels(iopub=False, stdin=False, hb=False, control=False)
         client.execute(_ENTER.format(folder=_literal(str(folder))), silent=True)
-        try:
-            for _ in range(_PATIENCE):
-                with suppress(Empty):
-                    await client.get_shell_msg(timeout=1.0)
-                    return
-                if not await self.is_alive():
-                    break
-        finally:
-            client.stop_channels()
+        for _ in range(_PATIENCE):
+            with suppress(Empty):
+                await client.get_shell_msg(timeout=1.0)
+                return
+            if not await self.is_alive():
+                break
         raise RuntimeError("the kernel did not start")
+
+    def client(self, **options: Any) -> Any:
+        """Return a client, which lasts until `disconnect`: nbclient leaves its own open."""
+        client: Any = super().client(**options)
+        self._clients.append(client)
+        return client
+
+    def disconnect(self) -> None:
+        """Close the channels of all clients."""
+        while self._clients:
+            self._clients.pop().stop_channels()
 
     async def cleanup_resources(self, restart: bool = False) -> None:  # type: ignore[override]
         """Remove the kernel's own folder too."""

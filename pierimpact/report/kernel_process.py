@@ -1,11 +1,16 @@
 """The process of the report's kernel, as `kernel` starts it."""
 
 import os
+import shutil
+import time
 from importlib import import_module
+from threading import Thread
 from typing import Any
 
 from ipykernel.kernelapp import IPKernelApp
 from IPython import get_ipython
+
+_PAUSE = 0.2  # this project's choice: how long a kernel may outlive its starter [s]
 
 
 class IsolatedKernel(IPKernelApp):
@@ -17,12 +22,26 @@ class IsolatedKernel(IPKernelApp):
     def init_path(self) -> None:
         """Leave the folder at hand out of those where modules are looked for."""
 
+    def init_poller(self) -> None:
+        """Leave it to `_end_with` to watch the starter, where that is a process's parent."""
+        if os.name == "nt":
+            super().init_poller()  # type: ignore[no-untyped-call]
+
     def init_code(self) -> None:
         """Run no startup file."""
 
 
-def start() -> None:
-    """Become a kernel that has imported what a report needs; return when it ends."""
+def start(private: str, starter: int) -> None:
+    """Become a kernel that has imported what a report needs; return when it ends.
+
+    Parameters
+    ----------
+    private : str
+        Folder of the kernel's own, which is removed if the starter is killed.
+    starter : int
+        Identifier of the process that started this one, and that it ends with.
+    """
+    Thread(target=_end_with, args=(starter, private), daemon=True).start()
     import_module("pierimpact.report.sheet")
     IsolatedKernel.launch_instance()
 
@@ -31,3 +50,12 @@ def enter(folder: str) -> None:
     """Forget what was run before, and enter a folder."""
     os.chdir(folder)
     get_ipython().reset()
+
+
+def _end_with(starter: int, private: str) -> None:
+    """End this process when its starter ends, be it before this begins to watch it."""
+    while os.getppid() == starter:
+        time.sleep(_PAUSE)
+    if os.name != "nt":
+        shutil.rmtree(private, ignore_errors=True)
+        os._exit(1)

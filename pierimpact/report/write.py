@@ -3,8 +3,8 @@
 import contextlib
 import json
 import logging
+import os
 import sys
-import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
@@ -14,6 +14,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pierimpact.checks import InputError
 from pierimpact.files.case import CaseFile, read_case_file
+from pierimpact.files.unchanged import (
+    ChangedError,
+    put_unchanged,
+    refuse_changed,
+    remove_unchanged,
+)
+from pierimpact.files.write import temporary_folder
 from pierimpact.report.results import Results
 from pierimpact.resources import shipped
 
@@ -78,6 +85,7 @@ def write_report(
     output_dir: str | Path = "reports",
     *,
     docx: bool = False,
+    force: bool = False,
     kernels: "Kernels | None" = None,
     on_stage: Callable[[], object] = lambda: None,
 ) -> Report:
@@ -93,6 +101,8 @@ def write_report(
         Folder to write to; created if it does not exist.
     docx : bool, optional
         Whether to write the sheet as a Word document too.
+    force : bool, optional
+        Whether to replace files that somebody changed since they were written.
     kernels : Kernels, optional
         Kernels to take one from, and to leave it with for the next report.
     on_stage : callable, optional
@@ -102,33 +112,37 @@ def write_report(
     Raises
     ------
     InputError
-        When the case file breaks a rule, or the folder cannot be written to, which is an
-        OutputError; nothing is written.
+        When the case file breaks a rule, somebody changed a file that would be replaced, or the
+        folder cannot be written to, which is an OutputError; nothing is written.
     ReportError
-        When the notebook or a conversion fails; the notebook is kept as NAME.failed.ipynb.
+        When the notebook or a conversion fails; the notebook, if it is whole, is kept as
+        NAME.failed.ipynb.
     """
     case_path, output_dir = Path(case_path).absolute(), Path(output_dir).absolute()
     if kernels is None:
         with start_kernels([case_path]) as own:
-            return write_report(case_path, output_dir, docx=docx, kernels=own, on_stage=on_stage)
+            return write_report(
+                case_path, output_dir, docx=docx, force=force, kernels=own, on_stage=on_stage
+            )
     case_file = read_case_file(case_path)
-    name = case_path.stem
-    failed = output_dir / f"{name}.failed.ipynb"
-    with folder_for(output_dir, name) as folder:
-        endings = ("ipynb", "html", "pdf", "docx")[: None if docx else -1]
-        executed, *documents = (folder / f"{name}.{ending}" for ending in endings)
+    files = files_of(case_path.stem, docx)
+    with folder_for(output_dir) as folder:
+        _refuse_long_names(case_path, output_dir, files)
+        refuse_changed(output_dir, files, force=force)
+        executed, *documents = (folder / file for file in files)
         try:
             notebook = _execute(case_file, case_path.parent, executed, kernels, on_stage)
             results = Results.in_notebook(notebook)
             warnings = convert(notebook, documents, on_stage)
-            executed, html, pdf, *word = put_in_place((executed, *documents), output_dir)
+            executed, html, pdf, *word = put_unchanged(
+                (executed, *documents), output_dir, force=force
+            )
+        except ChangedError:
+            raise
         except Exception as error:
-            message = f"{case_path.name}: {reason_of(error)}"
-            if executed.is_file():
-                executed.replace(failed)
-                message += f"; the notebook is kept as {failed}"
-            raise ReportError(message) from error
-    failed.unlink(missing_ok=True)
+            reason, kept = reason_of(error), _keep(executed, output_dir)
+            raise ReportError(f"{case_path.name}: {reason}{kept}") from error
+    remove_unchanged(output_dir / _failed(case_path))
     return Report(executed, html, pdf, warnings, results, *word)
 
 
@@ -137,6 +151,39 @@ def start_kernels(cases: Sequence[Path], at_once: int = 1) -> "Kernels":
     module = import_module("pierimpact.report.kernel")
     kernels: Kernels = module.Kernels(cases, min(at_once, len(cases)))
     return kernels
+
+
+def files_of(name: str, docx: bool) -> list[str]:
+    """Return the names of the files of a report, that of the notebook first."""
+    return [f"{name}.{ending}" for ending in ("ipynb", "html", "pdf", "docx")[: 3 + docx]]
+
+
+def _failed(file: Path) -> str:
+    return f"{file.stem}.failed.ipynb"
+
+
+def _refuse_long_names(case_path: Path, output_dir: Path, files: Sequence[str]) -> None:
+    for file in files:
+        try:
+            os.lstat(output_dir / file)
+        except FileNotFoundError:
+            pass
+        except OSError as error:
+            raise InputError(
+                f"{case_path.name}: {file} cannot be written to {output_dir}: {error.strerror}"
+            ) from None
+
+
+def _keep(notebook: Path, output_dir: Path) -> str:
+    """Keep the notebook of a report that failed, if it is whole, and say where."""
+    try:
+        json.loads(notebook.read_bytes())
+        (kept,) = put_unchanged(
+            [notebook.rename(notebook.with_name(_failed(notebook)))], output_dir
+        )
+    except (OSError, ValueError):
+        return ""
+    return f"; the notebook is kept as {kept}"
 
 
 def _execute(
@@ -159,7 +206,7 @@ def _execute(
         with kernels.in_folder(folder) as kernel:
             return papermill.execute_notebook(
                 notebook,
-                output,
+                _as_papermill_has_it(output),
                 case_file.parameters,
                 km=kernel,
                 kernel_name="python3",
@@ -180,6 +227,11 @@ def _execute(
                 raise
             # Another process may have taken the ports chosen for the kernel before it had them.
             return execute()
+
+
+def _as_papermill_has_it(path: Path) -> str:
+    """Return a path with its braces doubled: papermill fills in what stands in single ones."""
+    return str(path).replace("{", "{{").replace("}", "}}")
 
 
 def convert(
@@ -212,7 +264,7 @@ def _import_exporters() -> None:
         exporter_for(ending)
 
 
-def reason_of(error: Exception) -> str:
+def reason_of(error: BaseException) -> str:
     """Return in one line what failed."""
     if type(error).__name__ == "PapermillExecutionError":
         message = str(error.evalue).partition("\n")[0]  # type: ignore[attr-defined]
@@ -221,31 +273,27 @@ def reason_of(error: Exception) -> str:
 
 
 @contextlib.contextmanager
-def folder_for(output_dir: Path, name: str) -> Iterator[Path]:
-    """Make a temporary folder in `output_dir` to write files called `name` in.
+def folder_for(output_dir: Path) -> Iterator[Path]:
+    """Make the output folder, and a temporary folder in it for files to be put in place from.
 
     Raises
     ------
     OutputError
         When it cannot be made.
     """
-    try:
-        output_dir.mkdir(parents=True, exist_ok=True)
-        folder = tempfile.TemporaryDirectory(dir=output_dir, prefix=f".{name}-")
-    except (FileExistsError, NotADirectoryError):
-        raise OutputError(f"output {output_dir} must be a folder, and there is a file") from None
-    except OSError as error:
-        raise OutputError(f"output {output_dir} cannot be written to: {error.strerror}") from None
-    with folder:
-        yield Path(folder.name)
-
-
-def put_in_place(files: Sequence[Path], output_dir: Path) -> list[Path]:
-    """Move finished files to the output folder and return where they are.
-
-    The last is moved first: it is the one most likely to be open in a viewer that locks it.
-    """
-    return [file.replace(output_dir / file.name) for file in reversed(files)][::-1]
+    with contextlib.ExitStack() as stack:
+        try:
+            output_dir.mkdir(parents=True, exist_ok=True)
+            folder = stack.enter_context(temporary_folder(output_dir))
+        except (FileExistsError, NotADirectoryError):
+            raise OutputError(
+                f"output {output_dir} must be a folder, and there is a file"
+            ) from None
+        except OSError as error:
+            raise OutputError(
+                f"output {output_dir} cannot be written to: {error.strerror}"
+            ) from None
+        yield folder
 
 
 def import_libraries() -> None:

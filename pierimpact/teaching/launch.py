@@ -1,13 +1,13 @@
 """Opening the teaching notebooks: in JupyterLab, or the explorer alone as a Voilà page."""
 
 import os
-import shutil
 import subprocess
 import sys
 from importlib.util import find_spec
 from pathlib import Path
 
 from pierimpact.checks import InputError
+from pierimpact.files.write import write_files
 from pierimpact.resources import PACKAGE, shipped
 
 #: Folder for the reader's own copies, unless another is asked for.
@@ -39,9 +39,14 @@ def copy_notebooks(folder: str | Path = DEFAULT_FOLDER) -> Path:
     folder, ours = Path(folder).absolute(), shipped("notebooks")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for file in (*ours.glob("0*.ipynb"), ours / "explorer.ipynb", *ours.glob("*.yaml")):
-            if not (folder / file.name).exists():
-                shutil.copyfile(file, folder / file.name)
+        files = (*ours.glob("0*.ipynb"), ours / "explorer.ipynb", *ours.glob("*.yaml"))
+        write_files(
+            {
+                folder / file.name: file.read_bytes()
+                for file in files
+                if not (folder / file.name).exists()
+            }
+        )
     except OSError as error:
         raise InputError(f"folder {folder} cannot be written to: {error.strerror}") from None
     return folder
@@ -86,9 +91,10 @@ def _run(arguments: list[str], folder: Path) -> int:
     # The kernels start in the reader's folder, where a checkout would not be found.
     paths = [str(PACKAGE.parent), *filter(None, [os.environ.get("PYTHONPATH")])]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths)}
-    try:
-        return subprocess.run(
-            [sys.executable, "-m", *arguments], cwd=folder, env=environment, check=False
-        ).returncode
-    except KeyboardInterrupt:  # how one leaves a server
-        return 0
+    command = [sys.executable, "-m", *arguments]
+    if sys.platform != "win32":
+        # The server takes this process over, so that whatever signal ends this ends it too.
+        sys.stdout.flush()
+        os.chdir(folder)
+        os.execve(sys.executable, command, environment)
+    return subprocess.run(command, cwd=folder, env=environment, check=False).returncode

@@ -1,0 +1,58 @@
+"""What ends a command from outside: Ctrl-C and signals, and output that nobody takes."""
+
+import io
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import NoReturn
+
+_NAMES = ("SIGINT", "SIGTERM", "SIGHUP")  # not all systems have all
+
+
+class Ending:
+    """Which signal ended the command, Ctrl-C unless another did."""
+
+    signal: int = signal.SIGINT
+
+
+@contextmanager
+def signals_as_interrupts() -> Iterator[Ending]:
+    """Turn the first signal that ends a process into a KeyboardInterrupt, to clean up after it.
+
+    Those that follow mean the same, and are ignored. A signal that is ignored before, as in the
+    background or by nohup, stays so.
+    """
+    ending, numbers = Ending(), [getattr(signal, name) for name in _NAMES if hasattr(signal, name)]
+
+    def end(number: int, _: FrameType | None) -> NoReturn:
+        for each in before:
+            signal.signal(each, signal.SIG_IGN)
+        ending.signal = number
+        raise KeyboardInterrupt
+
+    if threading.current_thread() is not threading.main_thread():
+        numbers = []  # only the main thread may, and is interrupted
+    before = {n: signal.getsignal(n) for n in numbers if signal.getsignal(n) != signal.SIG_IGN}
+    try:
+        for number in before:
+            signal.signal(number, end)
+        yield ending
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def print_anything() -> None:
+    """Let all output print what its encoding lacks as escapes."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
+def drop_output() -> None:
+    """Send to nowhere what is still to be printed."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
