@@ -3,7 +3,6 @@
 import base64
 import html
 import io
-import json
 import re
 import shutil
 import subprocess
@@ -17,6 +16,7 @@ import pypdf
 import pytest
 import typst
 import yaml
+from browser_requests import OPTIONS, needs_browser, shown_by_browser
 from sheet_page import US_CASE
 from word_file import WordFile
 
@@ -192,41 +192,11 @@ def test_the_page_asks_for_nothing(made):
     assert not [tag for tag, _ in page.tags if tag in ("script", "link", "iframe")]
 
 
-BROWSER = """
-    chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run
-    --disable-background-networking --disable-component-update --disable-sync --dump-dom
-"""
-
-
-def requested_by(page, folder):
-    """Return the addresses that a page, and not the browser on its own, asks for."""
-    log = folder / "net.json"
-    options = [f"--user-data-dir={folder / 'profile'}", f"--log-net-log={log}"]
-    done = subprocess.run(
-        [*BROWSER.split(), *options, page.as_uri()],
-        capture_output=True,
-        encoding="utf-8",
-        check=True,
-        timeout=600,
-    )
-    assert "Before you rely on this" in done.stdout
-    events = (event.get("params", {}) for event in json.loads(log.read_text("utf-8"))["events"])
-    return {
-        event["url"]
-        for event in events
-        if event.get("initiator", "not an origin") != "not an origin"
-    }
-
-
-@pytest.mark.skipif(
-    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
-)
+@needs_browser
 def test_a_browser_makes_no_request(us, tmp_path):
-    assert requested_by(us[1].html, tmp_path) == set()
-    asking = tmp_path / "asking.html"
-    image = "http://127.0.0.1:9/x.png"
-    asking.write_text(f"<p>Before you rely on this <img src='{image}'></p>")
-    assert requested_by(asking, tmp_path) == {image}
+    shown, requests = shown_by_browser(us[1].html, tmp_path)
+    assert "Before you rely on this" in shown
+    assert requests == set()
 
 
 CUT = """
@@ -247,14 +217,12 @@ onload = () => {
 """
 
 
-@pytest.mark.skipif(
-    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
-)
+@needs_browser
 def test_a_narrow_screen_cuts_nothing(made, tmp_path):
     (tmp_path / "view.html").write_text(CUT.replace("PAGE", made[1].html.as_uri()), "utf-8")
     done = subprocess.run(
         [
-            *BROWSER.split(), f"--user-data-dir={tmp_path / 'profile'}",
+            *OPTIONS.split(), f"--user-data-dir={tmp_path / 'profile'}",
             "--allow-file-access-from-files", (tmp_path / "view.html").as_uri(),
         ],
         capture_output=True, encoding="utf-8", check=True, timeout=600,
