@@ -10,6 +10,7 @@ from typing import get_args
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from papermill.translators import PythonTranslator
 
 import pierimpact
 from pierimpact.checks import InputError
@@ -319,7 +320,7 @@ def test_a_case_file(tmp_path):
     assert read_case_file(path).case == case_file.case
 
 
-def test_the_parameters_of_a_case_file_give_its_case(tmp_path):
+def test_the_parameters_of_a_case_file_give_its_case(tmp_path, monkeypatch):
     path = tmp_path / "case.yaml"
     path.write_text(as_yaml(CASE) + "date: 2026-01-31\nnotes: [one]\n", encoding="utf-8")
     case_file = read_case_file(path)
@@ -327,6 +328,7 @@ def test_the_parameters_of_a_case_file_give_its_case(tmp_path):
     assert parameters["date"] == "2026-01-31"
     assert parameters["case_file"] == "case.yaml"
     assert parameters["case_sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+    monkeypatch.chdir(tmp_path)
     case = case_from_notebook(parameters)
     assert (case.inputs, case.truck_file) == (case_file.case.inputs, case_file.case.truck_file)
 
@@ -393,6 +395,66 @@ def test_the_parameters_of_a_notebook_are_a_case():
     assert case_from_notebook(namespace) == case_from(CASE)
     with pytest.raises(InputError, match="'sped' is not a key of a case file; did you mean speed"):
         case_from_notebook(namespace | {"sped": "80 km/h"})
+
+
+def by_papermill(parameters):
+    """Return the variables of a notebook that papermill was given these parameters for."""
+    cell = PythonTranslator.codify(parameters)
+    namespace = dict.fromkeys((*KEYS, *NOTEBOOK_PARAMETERS))
+    exec(cell, namespace)
+    return namespace | {"In": ["", "speed = None", cell, "case_from_notebook(globals())"]}
+
+
+ODD = ['"""; x = 1', "'" * 3, "{x}", "\\", "\\n", "# no comment", "Мост 𝛼"]
+
+
+def test_papermill_gives_a_case():
+    values = CASE | {"notes": ODD, "damping_ratio": 0.03, "sources": {"speed": ODD[0]}}
+    assert case_from_notebook(by_papermill(values)) == case_from(values)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({"_speed": "80 km/h"}, "'_speed' is not a key of a case file; did you mean speed?"),
+        ({"calculate": 3}, "'calculate' is not a key"),
+        ({"Sheet": 3}, "'Sheet' is not a key"),
+        ({"globals": 3}, "'globals' is not a key"),
+        ({"case_from_notebook": None}, "'case_from_notebook' is not a key"),
+        ({"x=len('');y": 3}, "parameters must be keys and plain values, got \"x = len('')\""),
+        ({"speed=len;element": 3}, "got 'speed = len'"),
+        ({"import re;element": "x"}, "got 'import re'"),
+        ({"speed=element": "1"}, "got \"speed = element = '1'\""),
+        ({"damping_ratio": math.nan}, "got \"damping_ratio = float('nan')\""),
+        ({"case_file": "case.yaml"}, "case_file case.yaml has other values than the notebook"),
+        ({"case_sha256": "0" * 64}, "case_file must be the name of a file in this folder"),
+        ({"shared_sha256": "0" * 64}, "case_file must be the name of a file in this folder"),
+        ({"case_file": "none.yaml"}, "case_file none.yaml: cannot be read"),
+        ({"case_file": "../case.yaml"}, "case_file must be the name of a file in this folder"),
+        ({"case_file": 3}, "case_file must be the name of a file in this folder"),
+    ],
+)
+def test_papermill_cannot_shadow_or_forge(parameters, message, tmp_path, monkeypatch):
+    (tmp_path / "case.yaml").write_text(as_yaml(CASE), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        case_from_notebook(by_papermill(CASE | parameters))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("key", "forged"),
+    [("speed", "30 km/h"), ("case_sha256", "0" * 64), ("shared_sha256", "0" * 64), ("notes", [])],
+)
+def test_a_case_file_stands_for_its_own_values_only(key, forged, tmp_path, monkeypatch):
+    (tmp_path / "case.yaml").write_text(
+        as_yaml(CASE) + "date: 2026-01-31\nnotes: [one]\n", encoding="utf-8"
+    )
+    monkeypatch.chdir(tmp_path)
+    parameters = read_case_file("case.yaml").parameters
+    assert case_from_notebook(by_papermill(parameters)).inputs.notes == ("one",)
+    with pytest.raises(InputError, match=r"case_file case\.yaml has other values"):
+        case_from_notebook(by_papermill(parameters | {key: forged}))
 
 
 def test_the_notebook_lists_every_key():

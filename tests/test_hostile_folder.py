@@ -8,11 +8,11 @@ from pathlib import Path
 
 HOUSE = Path(__file__).parents[1]
 DATE = "date: 2026-02-03\n"
-# Modules that Python, Jupyter or the report look for, and that whoever finds them first runs.
+# Modules that Jupyter or the report look for, and that run where they are found.
 SHADOWS = (
     "ipykernel", "ipykernel_launcher", "numpy", "matplotlib", "IPython", "jinja2", "pydantic",
-    "yaml", "papermill", "nbconvert", "typst", "pypandoc", "tqdm", "scipy", "pint", "sitecustomize",
-    "usercustomize", "rfc3987_syntax", "debugpy", "zmq", "jupyter_client",
+    "yaml", "papermill", "nbconvert", "typst", "pypandoc", "tqdm", "scipy", "pint",
+    "rfc3987_syntax", "debugpy", "zmq", "jupyter_client",
 )  # fmt: skip
 STYLE = "axes.facecolor: red\nfont.size: 30\nnonsense\nbackend: nothing-of-the-kind\n"
 

@@ -69,14 +69,15 @@ def test_shared_values_stand_for_what_the_case_does_not_give(tmp_path):
     assert case_file.case.shared_sha256 == sha256
 
 
-def test_the_notebook_has_the_shared_values_without_the_file(tmp_path, monkeypatch):
+def test_the_notebook_has_the_shared_values(tmp_path, monkeypatch):
     (tmp_path / "logo.png").write_bytes(PNG)
     (tmp_path / SHARED_FILE).write_text(TABLE, encoding="utf-8")
     case_file = read_case_file(write_case(tmp_path, project="This bridge"))
-    parameters = case_file.parameters
-    (tmp_path / SHARED_FILE).unlink()
     monkeypatch.chdir(tmp_path)
-    assert case_from_notebook(parameters) == case_file.case
+    assert case_from_notebook(case_file.parameters) == case_file.case
+    (tmp_path / SHARED_FILE).unlink()
+    with pytest.raises(InputError, match=r"case_file .* has other values than the notebook"):
+        case_from_notebook(case_file.parameters)
 
 
 def test_a_folder_without_shared_values_has_none(tmp_path):
@@ -155,6 +156,14 @@ def svg_with(inside):
             svg_with(b'<a xmlns:l="http://www.w3.org/1999/xlink" l:href="javascript:x"/>'),
             "with 'javascript:x'",
         ),
+        (svg_with(b"<style>@import 'http://a.b/c.css';</style>"), "with '@import'"),
+        (svg_with(b"<style>path { fill: URL( 'http://a.b/c') }</style>"), "all that it shows"),
+        (svg_with(b"<style>path { fill: \\75rl(http://a.b/c) }</style>"), "all that it shows"),
+        (svg_with(b"<style><![CDATA[@imp]]><![CDATA[ort 'x';]]></style>"), "with '@import'"),
+        (svg_with(b"<g style=\"mask: image-set('http://a.b/c' 1x)\"/>"), "all that it shows"),
+        (svg_with(b'<g fill="url(//a.b/c)"/>'), "with 'url(//a.b/c)'"),
+        (svg_with(b'<set attributeName="xlink:href" to="x"/>'), "whose links stay"),
+        (b"<?xml-stylesheet href='http://a.b/c.css'?>" + SVG, "without <?xml-stylesheet … ?>"),
         (ENTITY + SVG, "an SVG without entities of its own"),
         ((ENTITY + SVG).decode().encode("utf-16"), "an SVG without entities"),
         (b'<?xml version="1.0" encoding="klingon"?>' + SVG, "well-formed SVG"),
@@ -197,7 +206,7 @@ def test_any_content_is_a_logo_or_a_line(tmp_path_factory, content):
     assert len(message.splitlines()) <= 1
 
 
-def test_revisions(tmp_path):
+def test_revisions(tmp_path, monkeypatch):
     lines = [
         {"revision": "A", "date": datetime.date(2026, 1, 31), "description": "First", "by": "X"},
         {"revision": "B", "date": "2026-02-28"},
@@ -207,6 +216,7 @@ def test_revisions(tmp_path):
     assert (first.revision, first.date, first.by) == ("A", datetime.date(2026, 1, 31), "X")
     assert (second.date, second.description) == (datetime.date(2026, 2, 28), "—")
     assert case_file.parameters["revisions"][0]["date"] == "2026-01-31"
+    monkeypatch.chdir(tmp_path)
     assert case_from_notebook(case_file.parameters).inputs == case_file.case.inputs
 
 

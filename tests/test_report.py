@@ -3,7 +3,6 @@
 import base64
 import html
 import io
-import json
 import re
 import shutil
 import subprocess
@@ -17,6 +16,7 @@ import pypdf
 import pytest
 import typst
 import yaml
+from browser_requests import OPTIONS, needs_browser, shown_by_browser
 from sheet_page import US_CASE
 from word_file import WordFile
 
@@ -28,7 +28,7 @@ from pierimpact.report.calculation import calculate
 from pierimpact.report.document.blocks import TitleBlock
 from pierimpact.report.exporters import SheetPDFExporter, compile_typst, notebook_of
 from pierimpact.report.results import Results
-from pierimpact.report.write import ReportError, report_notebook, write_report
+from pierimpact.report.write import ReportError, exporter_for, report_notebook, write_report
 from pierimpact.units import printed
 
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
@@ -149,15 +149,24 @@ def test_papermill_alone_gives_the_same_sheet(us, tmp_path):
     )
 
     def sheet(path):
-        return [
-            out.data.get("text/html", out.data)
+        return {
+            cell.id: [
+                out.data.get("text/html", out.data)
+                for out in cell.get("outputs", [])
+                if "data" in out
+            ]
             for cell in nbformat.read(path, 4).cells
-            for out in cell.get("outputs", [])
-            if "data" in out
-        ]
+            if "injected-parameters" not in cell.metadata.get("tags", [])
+        }
 
     alone, whole = map(sheet, (output, files.notebook))
-    others = [(mine, its) for mine, its in zip(alone, whole, strict=True) if mine != its]
+    assert set(whole) < set(alone)  # the command leaves out annexes that the case does not ask for
+    others = [
+        (mine, its)
+        for cell in whole
+        for mine, its in zip(alone[cell], whole[cell], strict=True)
+        if mine != its
+    ]
     assert len(others) == 2  # only the command knows the case file, which stands in two places
     for mine, its in others:
         assert "set in the notebook" in mine
@@ -193,41 +202,11 @@ def test_the_page_asks_for_nothing(made):
     assert not [tag for tag, _ in page.tags if tag in ("script", "link", "iframe")]
 
 
-BROWSER = """
-    chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run
-    --disable-background-networking --disable-component-update --disable-sync --dump-dom
-"""
-
-
-def requested_by(page, folder):
-    """Return the addresses that a page, and not the browser on its own, asks for."""
-    log = folder / "net.json"
-    options = [f"--user-data-dir={folder / 'profile'}", f"--log-net-log={log}"]
-    done = subprocess.run(
-        [*BROWSER.split(), *options, page.as_uri()],
-        capture_output=True,
-        encoding="utf-8",
-        check=True,
-        timeout=600,
-    )
-    assert "Before you rely on this" in done.stdout
-    events = (event.get("params", {}) for event in json.loads(log.read_text("utf-8"))["events"])
-    return {
-        event["url"]
-        for event in events
-        if event.get("initiator", "not an origin") != "not an origin"
-    }
-
-
-@pytest.mark.skipif(
-    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
-)
+@needs_browser
 def test_a_browser_makes_no_request(us, tmp_path):
-    assert requested_by(us[1].html, tmp_path) == set()
-    asking = tmp_path / "asking.html"
-    image = "http://127.0.0.1:9/x.png"
-    asking.write_text(f"<p>Before you rely on this <img src='{image}'></p>")
-    assert requested_by(asking, tmp_path) == {image}
+    shown, requests = shown_by_browser(us[1].html, tmp_path)
+    assert "Before you rely on this" in shown
+    assert requests == set()
 
 
 CUT = """
@@ -248,14 +227,12 @@ onload = () => {
 """
 
 
-@pytest.mark.skipif(
-    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
-)
+@needs_browser
 def test_a_narrow_screen_cuts_nothing(made, tmp_path):
     (tmp_path / "view.html").write_text(CUT.replace("PAGE", made[1].html.as_uri()), "utf-8")
     done = subprocess.run(
         [
-            *BROWSER.split(), f"--user-data-dir={tmp_path / 'profile'}",
+            *OPTIONS.split(), f"--user-data-dir={tmp_path / 'profile'}",
             "--allow-file-access-from-files", (tmp_path / "view.html").as_uri(),
         ],
         capture_output=True, encoding="utf-8", check=True, timeout=600,
@@ -556,8 +533,10 @@ def test_a_failing_conversion_leaves_no_half_report(si, tmp_path, monkeypatch):
     shutil.copytree(Path(__file__).parent.parent / "templates", templates)
     (templates / "pierimpact-pdf" / "index.typ.j2").write_text("#nonsense")
     monkeypatch.setattr("pierimpact.report.exporters.shipped", lambda _: templates)
+    exporter_for.cache_clear()
     with pytest.raises(ReportError, match="unknown variable: nonsense"):
         write_report(si[0], tmp_path / "out")
+    exporter_for.cache_clear()
     left = {path.name for path in (tmp_path / "out").iterdir()}
     assert left == {"tti-column.failed.ipynb", RECORD}
 

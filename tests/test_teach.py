@@ -1,4 +1,4 @@
-from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -8,32 +8,29 @@ from pierimpact.teaching import launch as teach
 
 
 @pytest.fixture
-def started(monkeypatch):
+def served(monkeypatch):
     calls = []
 
-    def execve(program, arguments, environment):
-        calls.append((arguments[1:], Path.cwd()))
-        raise SystemExit(3)
+    def serve(*what, browser):
+        calls.append((*what, browser))
 
-    monkeypatch.chdir(Path.cwd())  # which is undone at the end
-    monkeypatch.setattr(teach.os, "execve", execve)
+    server = SimpleNamespace(serve_course=serve, serve_explorer=serve)
+    monkeypatch.setattr(teach, "import_module", lambda _: server)
     monkeypatch.setattr(teach, "_need", lambda *_: None)
     return calls
 
 
-def test_the_readers_own_copies_are_opened(tmp_path, started):
+def test_the_readers_own_copies_are_served(tmp_path, served):
     folder = tmp_path / "course"
-    with pytest.raises(SystemExit, match="3"):
-        teach.open_notebooks(folder, browser=False)
-    assert started == [(["-m", "jupyterlab", "--no-browser", "01_collision.ipynb"], folder)]
+    teach.open_notebooks(folder, browser=False)
+    assert served == [(folder, "01_collision.ipynb", False)]
     names = {file.name for file in folder.iterdir()}
     assert {"01_collision.ipynb", "06_limits.ipynb", "tti-column.yaml"} <= names
 
 
-def test_the_app_shows_the_explorer(tmp_path, started):
-    with pytest.raises(SystemExit, match="3"):
-        teach.open_notebooks(tmp_path, app=True)
-    assert started == [(["-m", "voila", "explorer.ipynb"], tmp_path)]
+def test_the_app_shows_the_explorer(tmp_path, served):
+    teach.open_notebooks(tmp_path, app=True)
+    assert served == [(tmp_path / "explorer.ipynb", True)]
 
 
 def test_what_a_reader_changed_is_kept(tmp_path):
@@ -54,17 +51,12 @@ def test_a_missing_package_is_named(monkeypatch):
         teach.open_notebooks()
 
 
-@pytest.mark.parametrize(
-    ("options", "program"), [([], "jupyterlab"), (["--app"], "voila")], ids=["lab", "app"]
-)
-def test_the_command_opens_the_readers_copies(options, program, tmp_path, started):
-    folder = tmp_path / "mine"
-    with pytest.raises(SystemExit, match="3"):
-        cli.main(["teach", *options, "--folder", str(folder), "--no-browser"])
-    [(arguments, where)] = started
-    assert program in arguments
-    assert "--no-browser" in arguments
-    assert where == folder
+@pytest.mark.parametrize("app", [[], ["--app"]], ids=["lab", "app"])
+def test_the_command_opens_the_readers_copies(app, tmp_path, served):
+    assert cli.main(["teach", *app, "--folder", str(tmp_path), "--no-browser"]) == 0
+    [(*what, browser)] = served
+    assert what == ([tmp_path / "explorer.ipynb"] if app else [tmp_path, "01_collision.ipynb"])
+    assert not browser
 
 
 def test_the_command_says_what_is_missing(monkeypatch, tmp_path, capsys):

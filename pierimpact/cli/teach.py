@@ -91,10 +91,11 @@ def _teach(options: argparse.Namespace) -> int:
         print(teachers_sheet(options.answers), end="")
         return 0
     try:
-        return open_notebooks(options.folder, app=options.app, browser=options.browser)
+        open_notebooks(options.folder, app=options.app, browser=options.browser)
     except TeachError as error:
         complain(error)
         return 1
+    return 0
 
 
 def _collect(options: argparse.Namespace) -> int:

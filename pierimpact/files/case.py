@@ -1,9 +1,10 @@
 """Case files: flat YAML, parsed with units and checked before anything runs."""
 
+import ast
 import datetime
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -224,13 +225,19 @@ def _superseded(name: str | None, folder: Path, file_name: str | None) -> CaseFi
 def case_from_notebook(namespace: Mapping[str, object]) -> Case:
     """Return the case that a notebook's parameters describe.
 
-    Every plain value among the notebook's variables is taken for a key, so that a misspelt one
-    is found even though papermill passes it on. Errors as in `case_from`.
+    Every plain value among the notebook's variables is taken for a key, and so is every name that
+    papermill was given, so that a misspelt one is found even though papermill passes it on.
 
     Parameters
     ----------
     namespace : mapping of str to object
         The notebook's variables, `globals()`.
+
+    Raises
+    ------
+    InputError
+        As in `case_from`; or when papermill's cell does more than give values to keys, or when
+        `case_file` is given and these are not the values of that file.
     """
     values = {
         name: value
@@ -239,13 +246,56 @@ def case_from_notebook(namespace: Mapping[str, object]) -> Case:
         and name not in (*NOTEBOOK_PARAMETERS, "In", "Out")
         and isinstance(value, str | int | float | list | dict | datetime.date | None)
     }
-    file_name, shared_sha256 = (namespace.get(key) for key in ("case_file", "shared_sha256"))
-    return _case(
-        values,
-        Path(),
-        shared_sha256 if isinstance(shared_sha256, str) else None,
-        file_name if isinstance(file_name, str) else None,
+    for name in _names_by_papermill(namespace.get("In")):
+        if name not in NOTEBOOK_PARAMETERS:
+            values.setdefault(name, "")  # no key, or it would be there
+    files = {key: namespace.get(key) for key in NOTEBOOK_PARAMETERS}
+    file_name, _, shared_sha256 = (
+        name if isinstance(name, str) else None for name in files.values()
     )
+    case = _case(values, Path(), shared_sha256, file_name)
+    if any(each is not None for each in files.values()):
+        _check_file({**case.given, **files})
+    return case
+
+
+def _names_by_papermill(executed: object) -> Iterator[str]:
+    """Yield the names that papermill's cell gives values to, of the cells executed so far."""
+    for cell in executed if isinstance(executed, list) else []:
+        for line in ast.parse(cell).body if cell.startswith("# Parameters") else []:
+            match line:
+                case ast.Assign(targets=[ast.Name(id=name)], value=value) if _is_plain(value):
+                    yield name
+                case _:
+                    raise InputError(
+                        f"parameters must be keys and plain values, got {brief(ast.unparse(line))}"
+                    )
+
+
+def _is_plain(value: ast.expr) -> bool:
+    try:
+        ast.literal_eval(value)
+    except ValueError:
+        return False
+    return True
+
+
+def _check_file(given: Mapping[str, object]) -> None:
+    """Refuse name and hashes of files that do not give these values."""
+    name = given["case_file"]
+    remedy = "set case_file, case_sha256 and shared_sha256 to None, or write the report anew"
+    if not isinstance(name, str) or Path(name).name != name:
+        raise InputError(f"case_file must be the name of a file in this folder: {remedy}")
+    try:
+        parameters = read_case_file(name).parameters
+    except InputError as error:
+        raise InputError(f"case_file {error}: {remedy}") from None
+    if _without_none(parameters) != _without_none(_with_plain_dates(given)):
+        raise InputError(f"case_file {name} has other values than the notebook: {remedy}")
+
+
+def _without_none(values: Mapping[str, object]) -> dict[str, object]:
+    return {key: value for key, value in values.items() if value is not None}
 
 
 #: Factors of the formula of ACI 318 for the elastic modulus of normal-weight concrete, E over the

@@ -1,6 +1,7 @@
 """What the cases of an office share: `pierimpact.toml` beside a case file, and the logo."""
 
 import base64
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,6 +21,10 @@ _IMAGES = {
     "image/jpeg": (b"\xff\xd8\xff", b"\xff\xd9"),
 }
 _SVG = "http://www.w3.org/2000/svg"
+# What leads out of a file, in an attribute and in a style; or may hide that it does.
+_URL = r"""url\(\s*["']?(?!\s*(?:#|data:image/))"""
+_OUT_OF_ATTRIBUTE = re.compile(_URL, re.IGNORECASE)
+_OUT_OF_STYLE = re.compile(_URL + r"|@import|\bsrc\(|\bimage(-set)?\(|\\", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -94,32 +99,54 @@ def read_logo(name: str, folder: str | Path = ".") -> Logo:
 
 def _check_svg(content: bytes, shown: str) -> None:
     """Refuse what is no drawing that stands for itself."""
-    depth = 0
+    opened: list[str] = []
+    styles: list[str] = []
 
     def start(name: str, attributes: dict[str, str]) -> None:
-        nonlocal depth
         space, _, tag = name.rpartition(" ")
-        if depth == 0 and (space, tag) != (_SVG, "svg"):
+        if not opened and (space, tag) != (_SVG, "svg"):
             raise InputError(f"logo must be PNG, JPEG or SVG, got {shown} which begins <{tag}>")
-        depth += 1
+        opened.append(tag.lower())
         if tag.lower() in ("script", "foreignobject"):
             raise InputError(f"logo must be an SVG without <{tag}>, got {shown}")
         for key, value in attributes.items():
             attribute = key.rpartition(" ")[2].lower()
             if attribute.startswith("on"):
                 raise InputError(f"logo must be an SVG without {attribute}=…, got {shown}")
-            elsewhere = not value.strip().startswith(("#", "data:image/"))
-            if attribute == "href" and elsewhere:
+            if attribute == "attributename" and "href" in value.lower():
+                raise InputError(f"logo must be an SVG whose links stay as they are, got {shown}")
+            if attribute == "href":
+                elsewhere = not value.strip().startswith(("#", "data:image/"))
+            else:
+                out = _OUT_OF_STYLE if attribute == "style" else _OUT_OF_ATTRIBUTE
+                elsewhere = out.search(value) is not None
+            if elsewhere:
                 raise InputError(
                     f"logo must have all that it shows in itself, got {shown} with {brief(value)}"
                 )
 
+    def text(data: str) -> None:
+        if opened[-1] == "style":
+            styles.append(data)
+
+    def end(_: str) -> None:
+        if opened.pop() == "style" and (found := _OUT_OF_STYLE.search("".join(styles))):
+            raise InputError(
+                f"logo must have all that it shows in itself, got {shown} with {brief(found[0])}"
+            )
+
     def entity(*_: object) -> None:
         raise InputError(f"logo must be an SVG without entities of its own, got {shown}")
+
+    def instruction(name: str, _: str) -> None:
+        raise InputError(f"logo must be an SVG without <?{name} … ?>, got {shown}")
 
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.StartElementHandler = start
     parser.EntityDeclHandler = entity
+    parser.ProcessingInstructionHandler = instruction
+    parser.CharacterDataHandler = text
+    parser.EndElementHandler = end
     try:
         parser.Parse(content, True)
     except (expat.ExpatError, LookupError, ValueError) as error:

@@ -28,7 +28,7 @@ from traitlets import Int, Tuple, default
 from pierimpact.report.document.blocks import BLOCK_MIME, Block, for_html
 from pierimpact.resources import shipped
 
-_MARKDOWN = "markdown-citations-yaml_metadata_block"
+_MARKDOWN = "markdown-citations-yaml_metadata_block-raw_attribute"  # no Typst in a notebook's text
 _CUT = "pierimpactcutshere"  # a paragraph between two pieces of pandoc's input
 
 
@@ -107,16 +107,29 @@ class _SheetExporter(TemplateExporter):
             part["converted"] = text.removeprefix("<p>").removesuffix("</p>") if formula else text
 
     def _pandoc(self, pieces: list[str]) -> list[str]:
-        done = subprocess.run(
-            [get_pandoc_path(), f"--from={_MARKDOWN}", "--fail-if-warnings", *self.pandoc_options],
-            input=f"\n\n{_CUT}\n\n".join(pieces),
-            capture_output=True,
-            encoding="utf-8",
-            start_new_session=True,  # out of reach of Ctrl-C, which the caller handles
-        )
-        if done.returncode != 0:
-            raise RuntimeError(f"pandoc: {done.stderr.strip()}")
-        return [piece.strip() for piece in re.split(rf"(?:<p>)?{_CUT}(?:</p>)?", done.stdout)]
+        text = f"\n\n{_CUT}\n\n".join(pieces)
+        converted = pandoc(f"--from={_MARKDOWN}", *self.pandoc_options, text=text).decode()
+        return [piece.strip() for piece in re.split(rf"(?:<p>)?{_CUT}(?:</p>)?", converted)]
+
+
+def pandoc(*options: str, text: str = "", **process: Any) -> bytes:
+    """Return what pandoc makes of a text.
+
+    It reads no file but those that the options name: none of the user's, and none of the text's.
+    """
+    done: subprocess.CompletedProcess[bytes] = subprocess.run(
+        [
+            *(get_pandoc_path(), "--sandbox", f"--data-dir={shipped('templates')}"),
+            *("--fail-if-warnings", *options),
+        ],
+        input=text.encode(),
+        capture_output=True,
+        start_new_session=True,  # out of reach of Ctrl-C, which the caller handles
+        **process,
+    )
+    if done.returncode != 0:
+        raise RuntimeError(f"pandoc: {done.stderr.decode().strip()}")
+    return done.stdout
 
 
 def _printed(blocks: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
@@ -370,6 +383,7 @@ def compile_typst(
         "pdf_standards": ["a-2a", "ua-1"],
         "font_paths": [font_folder()],
         "ignore_system_fonts": True,
+        "root": font_folder(),  # all that the document could read files from
     }
     missing = ""
     while True:

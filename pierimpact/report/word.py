@@ -5,11 +5,11 @@ NOTEBOOK` works too. The template writes HTML with the LaTeX of the mathematics 
 turns that into a document in the styles of a reference document that is made here.
 """
 
+import base64
 import html
 import io
 import os
 import re
-import subprocess
 import tempfile
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
@@ -19,13 +19,13 @@ from typing import Any
 
 import typst
 from nbformat import NotebookNode
-from pypandoc import get_pandoc_path
 
 from pierimpact.report.document.markup import tex_length
 from pierimpact.report.document.numbered import CONTINUED
 from pierimpact.report.exporters import (
     SheetHTMLExporter,
     font_folder,
+    pandoc,
     parts_of,
     typst_bytes,
     typst_string,
@@ -88,14 +88,13 @@ class SheetWordExporter(SheetHTMLExporter):
         sheet["size"] = _PAPER[sheet["paper"]][:: -1 if sheet["landscape"] else 1]
         drawn = [part for part in parts_of(sheet["blocks"]) if part.get("svg") or part.get("logo")]
         pictures = _pictures(drawn)
-        for number, (part, picture) in enumerate(zip(drawn, pictures, strict=True), 1):
+        for part, picture in zip(drawn, pictures, strict=True):
             dots = int.from_bytes(picture[16:20])  # the width, in the head of a PNG
             part |= {
-                "png": f"drawing-{number}.png",
+                "png": base64.b64encode(picture).decode(),
                 "width": round(_INCH * dots / _DOTS, 3),
                 "most": round(_INCH / 1440 * (sheet["size"][0] - _SIDES), 3),
             }
-        sheet["pictures"] = {part["png"]: data for part, data in zip(drawn, pictures, strict=True)}
         return sheet
 
     def _pandoc(self, pieces: list[str]) -> list[str]:
@@ -119,26 +118,17 @@ class SheetWordExporter(SheetHTMLExporter):
         day = datetime.fromisoformat(f"{sheet['date']}T00:00:00").replace(tzinfo=UTC)
         with tempfile.TemporaryDirectory() as place:
             here = Path(place)
-            for name, picture in sheet["pictures"].items():
-                (here / name).write_bytes(picture)
             (here / "reference.docx").write_bytes(self._reference(sheet))
-            done = subprocess.run(
-                [
-                    *(get_pandoc_path(), "--from=html", "--to=docx", "--output=sheet.docx"),
-                    *("--shift-heading-level-by=-1", "--fail-if-warnings"),
-                    *("--reference-doc=reference.docx", f"--template={folder / 'template.xml'}"),
-                    *(f"--metadata=title:{sheet['document_title']}", "--metadata=lang:en-GB"),
-                    f"--metadata=author:{entries.get('Prepared by', '')}",
-                ],
-                input=source,
-                capture_output=True,
-                encoding="utf-8",
+            pandoc(
+                *("--from=html", "--to=docx", "--output=sheet.docx"),
+                *("--shift-heading-level-by=-1", "--reference-doc=reference.docx"),
+                *(f"--template={folder / 'template.xml'}", "--metadata=lang:en-GB"),
+                f"--metadata=title:{sheet['document_title']}",
+                f"--metadata=author:{entries.get('Prepared by', '')}",
+                text=source,
                 cwd=here,
                 env=os.environ | {"SOURCE_DATE_EPOCH": f"{day.timestamp():.0f}"},
-                start_new_session=True,
             )
-            if done.returncode != 0:
-                raise RuntimeError(f"pandoc: {done.stderr.strip()}")
             document = (here / "sheet.docx").read_bytes()
         body = _parts_in(document)["word/document.xml"].decode()
         for pandocs, own in _INSTEAD.items():
@@ -147,12 +137,7 @@ class SheetWordExporter(SheetHTMLExporter):
 
     def _reference(self, sheet: dict[str, Any]) -> bytes:
         """Return pandoc's reference document with the styles, page and running text of a sheet."""
-        done = subprocess.run(
-            [get_pandoc_path(), "--print-default-data-file=reference.docx"],
-            capture_output=True,
-            check=True,
-            start_new_session=True,
-        )
+        reference = pandoc("--print-default-data-file=reference.docx")
         width, height = sheet["size"]
         entries = dict(sheet["running"]) | dict(sheet["entries"])
         parts = {
@@ -163,7 +148,7 @@ class SheetWordExporter(SheetHTMLExporter):
             )
             for name in ("styles", "document", "header", "footer")
         }
-        default = _parts_in(done.stdout)
+        default = _parts_in(reference)
         running = ("header", "footer")
         for name, before, added in (
             ("[Content_Types].xml", "</Types>", map(_CONTENT_TYPE.format, running)),
@@ -171,7 +156,7 @@ class SheetWordExporter(SheetHTMLExporter):
             ("word/settings.xml", "<w:rsids>", [_COMPATIBLE]),
         ):
             parts[name] = default[name].decode().replace(before, "".join(added) + before)
-        return _rewritten(done.stdout, parts)
+        return _rewritten(reference, parts)
 
 
 def _pictures(drawn: Sequence[dict[str, Any]]) -> list[bytes]:
@@ -193,6 +178,7 @@ def _pictures(drawn: Sequence[dict[str, Any]]) -> list[bytes]:
         ppi=_DOTS,
         font_paths=[font_folder()],
         ignore_system_fonts=True,
+        root=font_folder(),
     )
     return pictures if isinstance(pictures, list) else [pictures]
 

@@ -1,14 +1,13 @@
 """Opening the teaching notebooks: in JupyterLab, or the explorer alone as a Voilà page."""
 
-import os
-import subprocess
-import sys
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from pierimpact.checks import InputError
 from pierimpact.files.write import write_files
-from pierimpact.resources import PACKAGE, shipped
+from pierimpact.resources import shipped
 
 #: Folder for the reader's own copies, unless another is asked for.
 DEFAULT_FOLDER = "pierimpact-notebooks"
@@ -54,8 +53,8 @@ def copy_notebooks(folder: str | Path = DEFAULT_FOLDER) -> Path:
 
 def open_notebooks(
     folder: str | Path = DEFAULT_FOLDER, *, app: bool = False, browser: bool = True
-) -> int:
-    """Open the course in JupyterLab, or the explorer alone; return the exit code when it ends.
+) -> None:
+    """Serve the course in JupyterLab, or the explorer alone, until a signal ends it.
 
     Parameters
     ----------
@@ -73,10 +72,13 @@ def open_notebooks(
     TeachError
         When JupyterLab, or Voilà, or the widgets are not installed.
     """
-    program, notebook = ("voila", "explorer") if app else ("jupyterlab", "01_collision")
-    _need(program, "anywidget")
-    options = [] if browser else ["--no-browser"]
-    return _run([program, *options, f"{notebook}.ipynb"], copy_notebooks(folder))
+    _need("voila" if app else "jupyterlab", "anywidget")
+    server: Any = import_module("pierimpact.teaching.server")  # slow to import
+    folder = copy_notebooks(folder)
+    if app:
+        server.serve_explorer(folder / "explorer.ipynb", browser=browser)
+    else:
+        server.serve_course(folder, "01_collision.ipynb", browser=browser)
 
 
 def _need(*modules: str) -> None:
@@ -85,16 +87,3 @@ def _need(*modules: str) -> None:
             raise TeachError(
                 f"the notebooks need {module}: python -m pip install 'pierimpact[teach]'"
             )
-
-
-def _run(arguments: list[str], folder: Path) -> int:
-    # The kernels start in the reader's folder, where a checkout would not be found.
-    paths = [str(PACKAGE.parent), *filter(None, [os.environ.get("PYTHONPATH")])]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths)}
-    command = [sys.executable, "-m", *arguments]
-    if sys.platform != "win32":
-        # The server takes this process over, so that whatever signal ends this ends it too.
-        sys.stdout.flush()
-        os.chdir(folder)
-        os.execve(sys.executable, command, environment)
-    return subprocess.run(command, cwd=folder, env=environment, check=False).returncode
