@@ -65,7 +65,7 @@ class Folder:
         for name in "ab":
             text = re.sub("revision: .*", f"revision: R{self.runs}", EXAMPLE)
             (self.folder / f"{name}.yaml").write_text(text, encoding="utf-8")
-        self.mark = f"PIERIMPACT_RUN={self.folder.name}-{self.runs}-"
+        self.mark = f"PIERIMPACT_RUN={self.folder}-{self.runs}-"
         key, _, value = self.mark.partition("=")
         return subprocess.Popen(
             [
