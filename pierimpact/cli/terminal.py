@@ -1,13 +1,25 @@
 """What the commands say besides their output."""
 
+import contextlib
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+
+from pierimpact.checks import shortened
 
 
 def complain(message: object) -> None:
-    """Print a message to the standard error stream."""
-    print(f"pierimpact: {message}", file=sys.stderr)
+    """Print a message as one line to the standard error stream, if anybody reads it."""
+    line = " ".join(f"pierimpact: {message}".split())
+    with contextlib.suppress(OSError):
+        print(line.encode("utf-8", "backslashreplace").decode(), file=sys.stderr, flush=True)
+
+
+def defect(error: Exception) -> str:
+    """Return what to say of an error that nobody foresaw."""
+    return (
+        f"{type(error).__name__}: {shortened(str(error), 300)}; this is a defect of the program: "
+        "run it again with --debug"
+    )
 
 
 def needs(what: str, error: ModuleNotFoundError) -> int:
@@ -16,7 +28,7 @@ def needs(what: str, error: ModuleNotFoundError) -> int:
     return 1
 
 
-@contextmanager
+@contextlib.contextmanager
 def progress_bar(unit: str) -> Iterator[Callable[[int], object]]:
     """Give the update of a progress bar on a terminal, where tqdm is installed."""
     try:

@@ -17,7 +17,7 @@ from pierimpact.units import parse
 
 Array = NDArray[np.float64]
 
-_HEADING = re.compile(r"\s*(.*?)\s*\[\s*(.*?)\s*\]\s*")
+_HEADING = re.compile(r"([^\[\]]*)\[([^\[\]]*)\]\s*")
 _EXAMPLE = "such as: time [ms], contact force [kN]"
 _DIMENSIONS = {"time": "time"} | dict.fromkeys(QUANTITIES, "force")
 _MOST = 4_000_000  # bytes, some 200,000 rows: this project's choice
@@ -113,10 +113,10 @@ def _heading(row: int, cells: list[str]) -> tuple[list[str], Array]:
                 f"row {row}: the heading must name each quantity with its unit, {_EXAMPLE}; "
                 f"got {brief(cell)}"
             )
-        name, unit = match[1].lower(), match[2]
+        name, unit = match[1].strip().lower(), match[2].strip()
         if name not in _DIMENSIONS:
             raise InputError(
-                f"row {row}: {brief(match[1])} is not one of {', '.join(_DIMENSIONS)}"
+                f"row {row}: {brief(match[1].strip())} is not one of {', '.join(_DIMENSIONS)}"
                 f"{did_you_mean(name, _DIMENSIONS)}"
             )
         try:

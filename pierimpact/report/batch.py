@@ -1,5 +1,6 @@
 """Several cases: a report of each, some at a time, and a summary of all of them."""
 
+import logging
 import os
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -26,6 +27,7 @@ from pierimpact.report.write import (
     write_report,
 )
 
+_log = logging.getLogger("pierimpact")
 SUMMARY = "summary"  # name of the files of the summary, without ending
 BINDER = "binder"  # name of the file of all sheets in one, without ending
 
@@ -214,8 +216,10 @@ def _write_one(
     except OutputError:
         raise  # it is the same for all cases
     except (InputError, ReportError) as error:
+        _log.debug("%s:", case, exc_info=True)
         return Failure(case, _line(error), bad_input=isinstance(error, InputError))
     except Exception as error:
+        _log.debug("%s:", case, exc_info=True)
         return Failure(case, f"{case.name}: {_line(reason_of(error))}", bad_input=False)
     finally:
         _close_event_loop()
