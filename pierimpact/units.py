@@ -55,6 +55,7 @@ DIMENSIONS = {
     "momentum": Dimension("N*s", "a momentum", "kN*s, kg*m/s"),
 }
 
+_LONGEST = 200  # characters of a quantity: this project's choice
 _DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _NUMBER = re.compile(rf"\s*([-+]?(?:{_DIGITS}|(?:nan|inf)\b))\s*(.*?)\s*", re.ASCII)
 _FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?[1-9])?"
@@ -116,6 +117,8 @@ def parse(name: str, value: object, dimension: str) -> float:
     """
     _, words, units = DIMENSIONS[dimension]
     shown = brief(value)
+    if isinstance(value, str) and len(value) > _LONGEST:
+        value = ""  # whatever it is, it is none, and patterns take long over it
     if isinstance(value, int | float) and not isinstance(value, bool):
         raise InputError(f"{name} must have a unit ({units}), got {shown}")
     if dimension == "length" and isinstance(value, str):
@@ -131,6 +134,8 @@ def parse(name: str, value: object, dimension: str) -> float:
     unit = _unit(expression)
     if unit is None:
         hint = did_you_mean(expression, units.split(", "))
+        if re.match(r",\d", expression):
+            hint = ": decimals have a point, thousands no comma"
         raise InputError(f"{name} must be {words} ({units}), got unknown unit in {shown}{hint}")
     size, dimensions = unit
     if dimensions != _dimensions(dimension):

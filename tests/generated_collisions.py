@@ -9,6 +9,7 @@ from scipy.stats.qmc import LatinHypercube
 
 from pierimpact import CrushSpring, EquivalentPier, Truck, load_truck
 
+REFERENCE = load_truck("single-unit-8t")
 # About the reference truck by 30 %; bounds of truck mass [kg], speed [m/s], pier frequency [Hz]
 # and mass [kg], damping ratio, k_u/k and friction force [N].
 SPREAD = (0.7, 1.3)
@@ -63,7 +64,6 @@ def _with_share_at_bound(bounds, share, fraction):
 
 def _collision(row):
     fractions = iter(row)
-    reference = load_truck("single-unit-8t")
 
     def about(value):
         return value * _between(SPREAD, next(fractions))
@@ -81,10 +81,10 @@ def _collision(row):
     friction_on = ("road", "pier", "nothing")[int(3.0 * next(fractions))]
     friction_force = _between(FRICTION, next(fractions))
     truck = dataclasses.replace(
-        reference,
-        engine_mass=about(reference.engine_mass),
-        engine_spring=spring_like(reference.engine_spring),
-        body_spring=spring_like(reference.body_spring),
+        REFERENCE,
+        engine_mass=about(REFERENCE.engine_mass),
+        engine_spring=spring_like(REFERENCE.engine_spring),
+        body_spring=spring_like(REFERENCE.body_spring),
         friction_force=0.0 if friction_on == "nothing" else friction_force,
         friction_on="road" if friction_on == "nothing" else friction_on,
     ).loaded_to(_between(TRUCK_MASS, next(fractions)))

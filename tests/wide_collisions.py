@@ -7,6 +7,7 @@ from generated_collisions import Case
 
 from pierimpact import CrushSpring, EquivalentPier, Truck, load_truck
 
+REFERENCE = load_truck("single-unit-8t")
 # Of the pier, bounds of mass [kg], frequency [Hz] and speed [m/s]; factors about the reference
 # truck's masses and springs; of all the share with what sits on a corner.
 PIER_MASS, FREQUENCY, SPEED = (100.0, 1e9), (0.1, 3e3), (0.1, 200.0)
@@ -53,12 +54,11 @@ def _spring(random, like):
 
 
 def _collision(random):
-    reference = load_truck("single-unit-8t")
-    engine_spring = _spring(random, reference.engine_spring)
-    body_spring = _spring(random, reference.body_spring)
+    engine_spring = _spring(random, REFERENCE.engine_spring)
+    body_spring = _spring(random, REFERENCE.body_spring)
     engine_mass, body_mass = (
         mass * _evenly(random, 1.0 / FACTOR, FACTOR)
-        for mass in (reference.engine_mass, reference.body_mass)
+        for mass in (REFERENCE.engine_mass, REFERENCE.body_mass)
     )
     if random.random() < 0.5 * CORNER:
         body_spring = engine_spring

@@ -1,66 +1,19 @@
-"""The command line: a file for each group of commands."""
+"""The command line: where it starts, and what becomes of errors.
 
-import argparse
-import sys
+Nothing is imported before `main` can catch an interrupt: the commands are in `commands`.
+"""
+
 from collections.abc import Sequence
-
-import pierimpact
-from pierimpact.checks import InputError
-from pierimpact.cli import cases, files, fit, teach
-from pierimpact.cli.ending import drop_output, print_anything, signals_as_interrupts
-from pierimpact.cli.terminal import complain
-from pierimpact.files.write import written
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code: 2 for bad input, 1 for any other failure."""
-    print_anything()
-    before = len(written)
-    with signals_as_interrupts() as ending:
-        try:
-            return _run(arguments)
-        except InputError as error:
-            complain(error)
-            return 2
-        except KeyboardInterrupt as interrupt:
-            left = ", ".join(f"{path} written" for path in written[before:])
-            complain(f"interrupted, {str(interrupt) or left or 'nothing written'}")
-            return 128 + ending.signal
-        except BrokenPipeError:  # whoever reads the output, such as head, has enough
-            drop_output()
-            return 1
-        except OSError as error:
-            drop_output()
-            complain(error)
-            return 1
-
-
-def _run(arguments: Sequence[str] | None) -> int:
     try:
-        options = parser().parse_args(arguments)
-        code: int = options.run(options)
-    finally:
-        if sys.stdout:
-            sys.stdout.flush()
-    return code
+        from pierimpact.cli.commands import run
 
+        return run(arguments)
+    except KeyboardInterrupt as interrupt:
+        from pierimpact.cli.terminal import complain
 
-def parser() -> argparse.ArgumentParser:
-    """Return the parser of all commands; what it parses has in `run` what runs the command."""
-    parser = argparse.ArgumentParser(
-        prog="pierimpact", description="Truck collisions with bridge piers.", allow_abbrev=False
-    )
-    version = f"pierimpact {pierimpact.__version__}"
-    parser.add_argument("--version", action="version", version=version)
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    files.add_new(commands)
-    cases.add_check(commands)
-    cases.add_report(commands)
-    cases.add_compare(commands)
-    files.add_trucks(commands)
-    files.add_schema(commands)
-    fit.add_fit(commands)
-    teach.add_teach(commands)
-    teach.add_collect(commands)
-    teach.add_page(commands)
-    return parser
+        complain(f"interrupted, {interrupt or 'nothing written'}")
+        return 130

@@ -1,16 +1,18 @@
 """The commands that calculate cases: `report`, `check` and `compare`."""
 
 import argparse
+import logging
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pierimpact.checks import InputError
-from pierimpact.cli.terminal import complain, needs
+from pierimpact.cli.terminal import complain, defect, needs
 
 if TYPE_CHECKING:
     from pierimpact.report.calculation import Calculation
 
+_log = logging.getLogger("pierimpact")
 _REPORT = """\
 Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAME is the name of
 the case file. Where there are more cases than one, summary.html, summary.pdf and summary.csv have
@@ -145,10 +147,12 @@ def _check(options: argparse.Namespace) -> int:
         try:
             text = (check_json if options.json else check_text)(str(path), _calculated(path))
         except InputError as error:
+            _log.debug("bad input:", exc_info=True)
             complain(error)
             codes.add(2)
         except Exception as error:  # the other cases are still calculated
-            complain(f"{path}: {type(error).__name__}: {error}")
+            _log.debug("unforeseen:", exc_info=True)
+            complain(f"{path}: {defect(error)}")
             codes.add(1)
         else:
             print(between + text, flush=True)

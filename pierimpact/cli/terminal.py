@@ -4,12 +4,22 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
+from pierimpact.checks import shortened
+
 
 def complain(message: object) -> None:
-    """Print a message to the standard error stream."""
-    if sys.stderr:
-        with suppress(OSError):  # nobody reads it
-            print(f"pierimpact: {message}", file=sys.stderr)
+    """Print a message as one line to the standard error stream, if anybody reads it."""
+    line = " ".join(f"pierimpact: {message}".split())
+    with suppress(OSError):  # nobody reads it
+        print(line.encode("utf-8", "backslashreplace").decode(), file=sys.stderr, flush=True)
+
+
+def defect(error: Exception) -> str:
+    """Return what to say of an error that nobody foresaw."""
+    return (
+        f"{type(error).__name__}: {shortened(str(error), 300)}; this is a defect of the program: "
+        "run it again with --debug"
+    )
 
 
 def needs(what: str, error: ModuleNotFoundError) -> int:

@@ -19,6 +19,7 @@ from pierimpact.files.inputs import (
     StepInputs,
 )
 from pierimpact.files.keys import explanation, quantity_of, usual_for
+from pierimpact.files.limits import POSSIBLE, possible_in
 from pierimpact.files.trucks import truck_names
 from pierimpact.units import DIMENSIONS, SYSTEMS, pattern
 
@@ -98,6 +99,10 @@ def _value(key: str, model: type[BaseModel], found: Schema) -> Schema:
     words = explanation(key, model)
     if usual:
         words += f". Usual: {usual}" + "".join(f" ({ends})" for ends in other)
+    if kind and (possible := possible_in(key, "SI")):
+        words += f". Possible: {possible}"
+    elif key in POSSIBLE:
+        schema["minimum"], schema["maximum"] = POSSIBLE[key]
     return {"description": f"{words[:1].upper()}{words[1:]}."} | schema
 
 

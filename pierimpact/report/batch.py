@@ -1,5 +1,6 @@
 """Several cases: a report of each, some at a time, and a summary of all of them."""
 
+import logging
 import os
 import unicodedata
 from collections.abc import Callable, Iterable, Sequence
@@ -31,6 +32,7 @@ from pierimpact.report.write import (
 if TYPE_CHECKING:
     from pierimpact.report.kernel import Kernels
 
+_log = logging.getLogger("pierimpact")
 SUMMARY = "summary"  # name of the files of the summary, without ending
 BINDER = "binder"  # name of the file of all sheets in one, without ending
 
@@ -256,10 +258,12 @@ def _write_one(
             case, output_dir, docx=docx, force=force, kernels=kernels, on_stage=on_stage
         )
     except (InputError, ReportError) as error:
+        _log.debug("%s:", case, exc_info=True)
         return Failure(case, _line(error), bad_input=isinstance(error, InputError))
     except (_Stopped, KeyboardInterrupt, SystemExit):
         raise
     except BaseException as error:  # others derive panics and the like from it
+        _log.debug("%s:", case, exc_info=True)
         return Failure(case, f"{case.name}: {_line(reason_of(error))}", bad_input=False)
     finally:
         _close_event_loop()
