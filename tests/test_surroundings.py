@@ -68,7 +68,9 @@ def test_a_report_in_odd_surroundings_is_the_same(odd, tmp_path):
             cwd="/", env=environment,
         ),
     )  # fmt: skip
-    names = [[Path(line) for line in printed(process).splitlines()] for process in at_once]
+    said = [(*process.communicate(), process.returncode) for process in at_once]
+    assert [answer[1:] for answer in said] == [("", 0), ("", 0)]
+    names = [[Path(line) for line in out.splitlines()] for out, *_ in said]
     assert [file.name for file in names[0]] == list(FILES)
     assert names[1] == [folder / "{out}" / file for file in FILES]
     for name in FILES[1:]:
