@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from pierimpact.vehicle.spread import Lognormal, Uniform
     from pierimpact.vehicle.truck import MassRangeWarning, Truck
 
-__version__ = "0.1.0"
+    __version__: str
 
 __all__ = [
     "CircularSection",
@@ -102,12 +102,22 @@ _MODULES = ("exercises", "maps", "predictions", "tables", "widgets")
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return _version()
     if name in _MODULES:
         return import_module(f"{__name__}.teaching.{name}")
     for home, names in _HOMES.items():
         if name in names:
             return getattr(import_module(f"{__name__}.{home}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def _version() -> str:
+    metadata = import_module("importlib.metadata")  # slow to import
+    try:
+        return str(metadata.version(__name__))
+    except metadata.PackageNotFoundError:  # a checkout that was never installed
+        return "0+unknown"
 
 
 def __dir__() -> list[str]:

@@ -125,7 +125,8 @@ def test_uniform_columns_agree_with_the_closed_forms(case):
         ("Mt", found.top_moment),
         ("xn", found.deflection),
     ):
-        assert value == pytest.approx(closed[name], rel=1e-12, abs=1e-300)
+        rounding = 1e-15 if name[0] == "R" else 1e-300  # a reaction is what the other leaves of one
+        assert value == pytest.approx(closed[name], rel=1e-12, abs=rounding)
     mass = column.mass_per_length * (closed["phi2b"] + closed["phi2t"])
     assert found.mass == pytest.approx(mass, rel=1e-9)
 

@@ -1,5 +1,6 @@
 """The process of the report's kernel, as `kernel` starts it."""
 
+import logging
 import os
 import shutil
 import time
@@ -42,6 +43,7 @@ def start(private: str, starter: int) -> None:
         Identifier of the process that started this one, and that it ends with.
     """
     Thread(target=_end_with, args=(starter, private), daemon=True).start()
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # a home may be read-only
     import_module("pierimpact.report.sheet")
     IsolatedKernel.launch_instance()
 
