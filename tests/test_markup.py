@@ -100,7 +100,7 @@ def displayed(monkeypatch):
         def update(self, bundle, raw):
             stills[self] = bundle["text/html"]
 
-    def display(content, raw=False, display_id=False):
+    def display(content, raw=False, display_id=False, exclude=()):
         handle = Handle()
         if raw:
             handle.update(content, raw)

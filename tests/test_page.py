@@ -565,7 +565,7 @@ def test_labels_keep_clear_of_each_other_in_a_still(opened, tmp_path, name):
     assert opened.errors() == []
 
 
-@pytest.mark.parametrize("width", [400, 1280])
+@pytest.mark.parametrize("width", [320, 400, 1280])
 def test_labels_keep_clear_of_each_other_at_the_ends_of_all_sliders(opened, width):
     opened.load(width, 800)
     opened.skip()

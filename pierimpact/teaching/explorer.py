@@ -168,12 +168,14 @@ def _frame(setup: Mapping[str, Any], title: str) -> str:
     start = f"widgetModule.explore(document.getElementById('explorer'), {data});"
     page = (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(title)}'
-        f"</title><style>body {{ margin: 0; padding: 4px; }}{browser.stylesheet('explorer')}"
+        "</title><style>:root { color-scheme: light dark; } body { margin: 0; padding: 4px; }"
+        f"{browser.stylesheet('explorer')}"
         f'</style></head><body><main id="explorer"></main><script type="module">{_script()}{start}'
         "</script></body></html>"
     )
+    height = "36rem" if "kind" in setup else "46rem"
     return (
         f'<figure style="margin:0"><iframe title="{html.escape(title)}" sandbox="allow-scripts" '
-        f'style="width:100%;height:46rem;border:0" srcdoc="{html.escape(page)}"></iframe>'
+        f'style="width:100%;height:{height};border:0" srcdoc="{html.escape(page)}"></iframe>'
         f"<figcaption>{html.escape(title)}. {_WITH_PYTHON}</figcaption></figure>"
     )

@@ -24,7 +24,7 @@ FRAME = f"3px solid {style.GREY}"
 # Voilà that is the widgets, in JupyterLab too as long as they have their kernel. A notebook opened
 # again has none, but a word of JupyterLab on what is missing, which bears no type as other outputs
 # do: the still shows instead. In a page made from the notebook, where widgets are dead, it does,
-# too.
+# too. A frame does not see JupyterLab's theme, but takes the colour scheme of its element.
 _LIVE, _STILL = "pierimpact-live", "pierimpact-still"
 _LIVES = f":has(.{_LIVE}:not(.jupyter-widgets-disconnected))"
 _STYLE = (
@@ -32,7 +32,9 @@ _STYLE = (
     f"body[data-voila] .{_STILL}, "
     f".jp-NotebookPanel .jp-OutputArea:has(.{_STILL}):not({_LIVES}) "
     ".jp-OutputArea-output:not([data-mime-type]) {display:none} "
-    f"body.jp-Notebook:not([data-voila]) .{_LIVE} {{display:none}}</style>"
+    f"body.jp-Notebook:not([data-voila]) .{_LIVE} {{display:none}} "
+    f".{_STILL} iframe {{color-scheme:light}} "
+    f"[data-jp-theme-light=false] .{_STILL} iframe {{color-scheme:dark}}</style>"
 )
 
 
@@ -152,7 +154,8 @@ class Shown:
 
     def display(self) -> None:
         """Display both."""
-        display(self._widget)  # type: ignore[no-untyped-call]
+        # A page made from the notebook would show the widget's plain text.
+        display(self._widget, exclude=["text/plain"])  # type: ignore[no-untyped-call]
         self._handle = display(self._bundle, raw=True, display_id=True)  # type: ignore[no-untyped-call]
 
     @property

@@ -136,12 +136,10 @@ export function drawSpectrum(svg, { points, bands, range, top }) {
       text(tick, x(tick), foot + 17, "tick"),
     );
   }
-  drawing.push(
-    text("Peak reaction of the pier [MN]", 4, 14, "label", "start"),
-  );
   const [middle, ...ends] = width > 520
     ? ["Natural frequency of the pier [Hz]", "← softer pier", "stiffer pier →"]
-    : ["Frequency [Hz]", "← softer pier", "stiffer pier →"];
+    : ["Frequency [Hz]", "← softer", "stiffer →"];
+  drawing.push(text(width > 360 ? "Peak reaction of the pier [MN]" : "Reaction [MN]", 4, 14, "label", "start"));
   drawing.push(
     text(middle, 0.5 * (left + right), foot + 34, "label"),
     text(ends[0], left, foot + 34, "label", "start"),
