@@ -105,11 +105,11 @@ function inLines(words, room) {
   return lines;
 }
 
-/** The axis long enough for the words beside the bars, and these: without remark where room is short. */
+/** The axis long enough for the words beside the bars, and these: where room is short, of the remark no more than that a value is unverified. */
 function withRoom(x, rows, room) {
   if (x.low < 0) return [x, rows.map(({ words }) => words)];
   const longest = Math.max(...rows.map(({ words }) => words.length));
-  const said = rows.map(({ words }) => (LETTER * longest + 20 < 0.75 * room ? words : words.split(":")[0]));
+  const said = rows.map(({ words }) => (LETTER * longest + 20 < 0.75 * room ? words : words.match(/^[^:]*(: unverified)?/)[0]));
   const ends = rows.map(({ bars }, n) => {
     const free = room - LETTER * said[n].length - 20;
     return (Math.max(...bars.map(({ value }) => value ?? 0)) * room) / Math.max(free, 0.25 * room);
