@@ -59,6 +59,8 @@ class Explorer:
         Names of more of them, by the titles of the drawers below.
     defaults : Scenario, optional
         Values to begin with.
+    height : int, optional
+        Of the frame of the still [rem].
     **setup
         What else the browser has to know: see the modules.
     """
@@ -70,9 +72,10 @@ class Explorer:
         controls: Sequence[str],
         drawers: Mapping[str, Sequence[str]] | None = None,
         defaults: Scenario | None = None,
+        height: int = 46,
         **setup: Any,
     ) -> None:
-        self.title = title
+        self.title, self.height = title, height
         self.defaults = defaults or Scenario()
         drawers = {name: list(names) for name, names in (drawers or {}).items()}
         above = setup.get("above", [])
@@ -117,7 +120,7 @@ class Explorer:
     def still(self) -> str:
         """The explorer as HTML that needs nothing else, not even a kernel."""
         setup = self._setup | {"values": self._setup["defaults"]}
-        return still(_frame(setup, self.title))
+        return still(_frame(setup, self.title, self.height))
 
     def _ipython_display_(self) -> None:
         show(self.widget, self.still, self.title)
@@ -162,7 +165,7 @@ class CollisionExplorer(Explorer):
         self.widget.copied = []
 
 
-def _frame(setup: Mapping[str, Any], title: str) -> str:
+def _frame(setup: Mapping[str, Any], title: str, height: int) -> str:
     """Return an explorer as a page in a frame."""
     data = json.dumps(setup).replace("<", "\\u003c")
     start = f"widgetModule.explore(document.getElementById('explorer'), {data});"
@@ -173,9 +176,8 @@ def _frame(setup: Mapping[str, Any], title: str) -> str:
         f'</style></head><body><main id="explorer"></main><script type="module">{_script()}{start}'
         "</script></body></html>"
     )
-    height = "36rem" if "kind" in setup else "46rem"
     return (
         f'<figure style="margin:0"><iframe title="{html.escape(title)}" sandbox="allow-scripts" '
-        f'style="width:100%;height:{height};border:0" srcdoc="{html.escape(page)}"></iframe>'
+        f'style="width:100%;height:{height}rem;border:0" srcdoc="{html.escape(page)}"></iframe>'
         f"<figcaption>{html.escape(title)}. {_WITH_PYTHON}</figcaption></figure>"
     )

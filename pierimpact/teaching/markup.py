@@ -99,7 +99,9 @@ def table(
     """
 
     def cell(kind: str, column: int, words: str, css: str = "") -> str:
-        align = "text-align:right;white-space:nowrap" if column in right else "text-align:left"
+        align = "text-align:right" if column in right else "text-align:left"
+        if column in right and kind == "td":
+            align += ";white-space:nowrap"
         return (
             f'<{kind} style="padding:3px 12px 3px 0;vertical-align:top;{align}{css}">'
             f"{html.escape(words)}</{kind}>"

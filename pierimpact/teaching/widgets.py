@@ -38,6 +38,7 @@ def full() -> Explorer:
         spectra=True,
         energy=True,
         copies=True,
+        height=62,
     )
 
 
@@ -58,6 +59,7 @@ def pier() -> Explorer:
     return Explorer(
         title="The shape function, and the pier’s stiffness and mass against the impact height",
         controls=["impact_height", "column_diameter", "column_height", "base", "top"],
+        height=36,
         kind="shape",
         symbols=browser.symbols_data("kp", "mp", "fp"),
     )
@@ -69,6 +71,7 @@ def reduction() -> Explorer:
         title="The amplification of engine and cargo against the frequency ratio",
         controls=[*_PIER, *_TRUCK],
         defaults=EXAMPLE,
+        height=36,
         kind="reduction",
     )
 
@@ -78,6 +81,7 @@ def design() -> Explorer:
     return Explorer(
         title="Design reaction, full model and code forces",
         controls=[*_TRUCK, *_COLUMN, "impact_height"],
+        height=36,
         kind="reactions",
         symbols=browser.symbols_data("fp"),
         codes=browser.codes_data(),
@@ -90,6 +94,7 @@ def sensitivity() -> Explorer:
     return Explorer(
         title="Sensitivity of either peak to the parameters of the truck",
         controls=[*_TRUCK, *_COLUMN],
+        height=52,
         kind="influences",
         symbols=browser.symbols_data("fp", "kp", "mp"),
         parameters=browser.parameters_data(),
