@@ -8,7 +8,7 @@ import { answer, firstPeak, phase, sentence } from "./sentences.mjs";
 import { bandsOf, coarseSpectrum, isEnginePeak, pierAt, pointAt, refine } from "./spectrum.mjs";
 
 const COARSE = 33; // points of a spectrum while a slider moves
-const SLICE = 24; // refining goes on for so long at a time [ms]
+const SLICE = 24, SOON = 8; // refining goes on for so long at a time, and begins so long after a picture [ms]
 const SLOWER = 40; // the collision is played so many times slower than it is
 const STRETCH = 0.05; // the axis of time grows by so much at a time [s]
 // Moments to look at, by the time that the outcome has for them; at first the one that governs.
@@ -239,7 +239,7 @@ export class Explorer {
       }
       this.refining = setTimeout(slice);
     };
-    this.refining = setTimeout(slice, SLICE);
+    this.refining = setTimeout(slice, SOON);
   }
 
   #follow() {
