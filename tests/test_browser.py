@@ -402,6 +402,11 @@ def test_a_lesson_runs_and_its_exercises_answer(browser, server, name):
     until(lambda: f"1 of {len(questions)} solved" in lesson.text())
     until(lambda: "solved after 2 tries" in lesson.text())
     assert not lesson.all(".pierimpact .controls")[0].is_displayed()
+    for control in lesson.all(".pierimpact-live :is(input, select, button, summary)"):
+        if control.is_displayed():
+            name = control.accessible_name
+            assert name.isprintable()  # an icon is not
+            assert name not in ("", control.get_attribute("placeholder"))
     right = COURSE[subject].prediction.answer()
     lesson.tick(right)
     lesson.push("Lock my prediction")

@@ -129,26 +129,26 @@ class Exercise:
         self.kept, self.number = work_on(lesson), number
         self.words, self.feedback = ipw.HTML(), ipw.HTML()
         question = self.question
+        named = {
+            "description": f"Answer to exercise {number}",
+            "style": {"description_width": "initial"},
+        }
         if question.choices:
             layout = ipw.Layout(width="auto")
             options = tuple(question.choices)
-            self.box = ipw.RadioButtons(options=options, value=None, layout=layout)
+            self.box = ipw.RadioButtons(options=options, value=None, layout=layout, **named)
         else:
-            hint, layout = "a number", ipw.Layout(width="290px")
+            hint, layout = "a number", ipw.Layout(width="400px")
             if question.dimension:
                 unit = DIMENSIONS[question.dimension].units.split(",")[0]
                 hint = f"number and unit, e.g. in {unit}"
-            self.box = ipw.Text(
-                description="Answer",
-                placeholder=hint,
-                continuous_update=False,
-                layout=layout,
-                style={"description_width": "initial"},
-            )
+            self.box = ipw.Text(placeholder=hint, continuous_update=False, layout=layout, **named)
         self._restore()
         if not question.choices:
             self.box.observe(self.answer, "value")  # on Enter, and on leaving the box
-        self.button = ipw.Button(description="Check", icon="check", layout=ipw.Layout(width="90px"))
+        self.button = ipw.Button(
+            description=f"Check exercise {number}", layout=ipw.Layout(width="160px")
+        )
         self.button.on_click(self.answer)
         self.widget = ipw.VBox(
             [self.words, ipw.HBox([self.box, self.button]), self.feedback],

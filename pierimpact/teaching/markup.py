@@ -24,7 +24,7 @@ FRAME = f"3px solid {style.GREY}"
 # Voilà that is the widgets, in JupyterLab too as long as they have their kernel. A notebook opened
 # again has none, but a word of JupyterLab on what is missing, which bears no type as other outputs
 # do: the still shows instead. In a page made from the notebook, where widgets are dead, it does,
-# too.
+# too. A frame does not see JupyterLab's theme, but takes the colour scheme of its element.
 _LIVE, _STILL = "pierimpact-live", "pierimpact-still"
 _LIVES = f":has(.{_LIVE}:not(.jupyter-widgets-disconnected))"
 _STYLE = (
@@ -32,7 +32,9 @@ _STYLE = (
     f"body[data-voila] .{_STILL}, "
     f".jp-NotebookPanel .jp-OutputArea:has(.{_STILL}):not({_LIVES}) "
     ".jp-OutputArea-output:not([data-mime-type]) {display:none} "
-    f"body.jp-Notebook:not([data-voila]) .{_LIVE} {{display:none}}</style>"
+    f"body.jp-Notebook:not([data-voila]) .{_LIVE} {{display:none}} "
+    f".{_STILL} iframe {{color-scheme:light}} "
+    f"[data-jp-theme-light=false] .{_STILL} iframe {{color-scheme:dark}}</style>"
 )
 
 
@@ -64,11 +66,6 @@ def refusal(words: str) -> str:
     return paragraph(html.escape(words), f"{_WARNED};padding:14px 16px", role="alert")
 
 
-def warning(words: str) -> str:
-    """Return a sentence of warning."""
-    return paragraph(html.escape(words), f"{_WARNED};padding:2px 10px")
-
-
 def muted(content: str) -> str:
     """Return HTML as a remark that stands back."""
     return f'<div style="color:{MUTED}">{content}</div>'
@@ -78,18 +75,6 @@ def choice_list(choices: Iterable[str]) -> str:
     """Return choices as a list, nothing where there are none."""
     items = "".join(f"<li>{html.escape(words)}</li>" for words in choices)
     return items and f'<ul style="color:{INK}">{items}</ul>'
-
-
-def named_values(items: Sequence[tuple[str, object, str]]) -> str:
-    """Return values side by side: the name of each as HTML, the value, and what it is."""
-    cells = "".join(
-        f'<div title="{html.escape(hint)}" style="padding:2px 18px 2px 0">'
-        f'<div style="font-size:11px;color:{MUTED}">{name}</div>'
-        f'<div style="font-size:16px;font-weight:600;color:{INK};white-space:nowrap">'
-        f"{html.escape(str(value))}</div></div>"
-        for name, value, hint in items
-    )
-    return f'<div style="display:flex;flex-wrap:wrap;line-height:1.35">{cells}</div>'
 
 
 def table(
@@ -114,7 +99,9 @@ def table(
     """
 
     def cell(kind: str, column: int, words: str, css: str = "") -> str:
-        align = "text-align:right;white-space:nowrap" if column in right else "text-align:left"
+        align = "text-align:right" if column in right else "text-align:left"
+        if column in right and kind == "td":
+            align += ";white-space:nowrap"
         return (
             f'<{kind} style="padding:3px 12px 3px 0;vertical-align:top;{align}{css}">'
             f"{html.escape(words)}</{kind}>"
@@ -169,7 +156,8 @@ class Shown:
 
     def display(self) -> None:
         """Display both."""
-        display(self._widget)  # type: ignore[no-untyped-call]
+        # A page made from the notebook would show the widget's plain text.
+        display(self._widget, exclude=["text/plain"])  # type: ignore[no-untyped-call]
         self._handle = display(self._bundle, raw=True, display_id=True)  # type: ignore[no-untyped-call]
 
     @property

@@ -25,11 +25,11 @@ class PredictionBox:
         self.choice = ipw.RadioButtons(
             options=tuple(self.prediction.choices),
             value=self.kept.work.prediction or None,
+            description="Your prediction",
             layout=ipw.Layout(width="auto"),
+            style={"description_width": "initial"},
         )
-        self.button = ipw.Button(
-            description="Lock my prediction", icon="lock", layout=ipw.Layout(width="170px")
-        )
+        self.button = ipw.Button(description="Lock my prediction", layout=ipw.Layout(width="170px"))
         self.button.on_click(self.lock)
         self.message = ipw.HTML()
         self.widget = ipw.VBox(

@@ -29,6 +29,11 @@ export function hertz(frequency) {
   return `${frequency.toFixed(frequency < 99.95 ? 1 : 0)} Hz`;
 }
 
+/** A number in three figures, or all before the decimal point. */
+export function number(value) {
+  return value >= 1000 ? Math.round(value).toLocaleString("en").replaceAll(",", " ") : String(Number(value.toPrecision(3)));
+}
+
 /** Fit a chart to the room that it has, so that its text keeps its size: before it is drawn. */
 export function fit(svg) {
   svg.setAttribute("viewBox", `0 0 ${svg.clientWidth} ${svg.clientHeight}`);
@@ -131,12 +136,10 @@ export function drawSpectrum(svg, { points, bands, range, top }) {
       text(tick, x(tick), foot + 17, "tick"),
     );
   }
-  drawing.push(
-    text("Peak reaction of the pier [MN]", 4, 14, "label", "start"),
-  );
   const [middle, ...ends] = width > 520
     ? ["Natural frequency of the pier [Hz]", "← softer pier", "stiffer pier →"]
-    : ["Frequency [Hz]", "← softer pier", "stiffer pier →"];
+    : ["Frequency [Hz]", "← softer", "stiffer →"];
+  drawing.push(text(width > 360 ? "Peak reaction of the pier [MN]" : "Reaction [MN]", 4, 14, "label", "start"));
   drawing.push(
     text(middle, 0.5 * (left + right), foot + 34, "label"),
     text(ends[0], left, foot + 34, "label", "start"),
