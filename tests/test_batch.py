@@ -1,5 +1,6 @@
 """Many cases at once: a report each, their summary, and what is said of those that fail."""
 
+import contextlib
 import csv
 import datetime
 import html
@@ -24,7 +25,8 @@ from pierimpact import cli
 from pierimpact.checks import InputError
 from pierimpact.design.codes import KIP
 from pierimpact.files.case import read_case_file
-from pierimpact.files.unchanged import RECORD
+from pierimpact.files.unchanged import RECORD, put_unchanged
+from pierimpact.files.write import temporary_folder
 from pierimpact.report import batch as batch_module
 from pierimpact.report.batch import find_cases, write_reports
 from pierimpact.report.calculation import calculate
@@ -483,6 +485,10 @@ def test_a_project_of_their_own_is_a_column(tmp_path):
     assert "Project" not in heads(rows[1:])
 
 
+class Panic(BaseException):
+    """What Typst raises where it has a fault of its own is no Exception either."""
+
+
 @pytest.mark.parametrize(
     ("outcomes", "code"),
     [
@@ -491,6 +497,7 @@ def test_a_project_of_their_own_is_a_column(tmp_path):
         ([InputError("a.yaml: bad"), InputError("b.yaml: bad")], 2),
         ([InputError("a.yaml: bad"), None, ReportError("c.yaml: failed")], 1),
         ([None, KeyError("a\nb")], 1),
+        ([None, Panic("no such glyph")], 1),
     ],
 )
 def test_exit_codes(tmp_path, monkeypatch, capsys, outcomes, code):
@@ -511,13 +518,71 @@ def test_exit_codes(tmp_path, monkeypatch, capsys, outcomes, code):
     good = len(outcomes) - len(failures)
     assert len(lines.out.splitlines()) == (3 * good + 3 if good else 0)
     expected = [
-        "b.yaml: KeyError: 'a\\nb'" if isinstance(error, KeyError) else str(error)
+        {"KeyError": "b.yaml: KeyError: 'a\\nb'", "Panic": "b.yaml: Panic: no such glyph"}.get(
+            type(error).__name__, str(error)
+        )
         for error in failures
     ]
     if failures:
         expected.append(f"{len(failures)} of {len(outcomes)} cases have no report")
     assert lines.err.splitlines() == [f"pierimpact: {line}" for line in expected]
     assert output.exists() == (good > 0)
+
+
+def test_nothing_is_written_where_somebody_changed_a_report(tmp_path, monkeypatch, capsys):
+    cases, output = [write_case(tmp_path / f"{name}.yaml") for name in "ab"], tmp_path / "out"
+    output.mkdir()
+    names = ["a.html", "a.pdf", "b.docx", "b.ipynb", "summary.csv", "binder.pdf"]
+    with temporary_folder(output) as temporary:
+        for name in names:
+            (temporary / name).write_text(name)
+        put_unchanged([temporary / name for name in names], output)
+    for name in ("a.pdf", "b.docx", "summary.csv", "binder.pdf"):
+        (output / name).write_text("mine")
+    before = {path.name: path.read_bytes() for path in output.iterdir()}
+    calls = []
+    monkeypatch.setattr(batch_module, "write_report", lambda *_, **__: calls.append(1))
+    for options, changed in (
+        ([], ("a.pdf", "summary.csv")),
+        (["--docx", "--binder"], ("a.pdf", "b.docx", "summary.csv", "binder.pdf")),
+    ):
+        command = ["report", *map(str, cases), "--output", str(output), *options]
+        assert cli.main(command) == 2
+        assert capsys.readouterr() == (
+            "",
+            f"pierimpact: {', '.join(str(output / name) for name in changed)} were not written by "
+            "pierimpact, or changed since: move what you want to keep, or give --force to "
+            "overwrite\n",
+        )
+    assert {path.name: path.read_bytes() for path in output.iterdir()} == before
+    assert calls == []
+
+
+def test_a_name_that_is_not_utf_8_costs_its_own_case_only(tmp_path, monkeypatch, capsys):
+    try:
+        odd = write_case(tmp_path / "a\udcff.yaml")
+    except OSError:
+        pytest.skip("this file system has names in UTF-8 only")
+    good, long = write_case(tmp_path / "b.yaml"), write_case(tmp_path / f"{'n' * 250}.yaml")
+    results, original = results_of(good), batch_module.write_report
+
+    def write(case, output, docx, force, kernels, on_stage):
+        if case != good:
+            return original(case, output, docx=docx, kernels=kernels)
+        return Report(Path("x.ipynb"), Path("x.html"), Path("x.pdf"), [], results)
+
+    monkeypatch.setattr(batch_module, "write_report", write)
+    monkeypatch.setattr(batch_module, "start_kernels", lambda *_: contextlib.nullcontext([]))
+    output = tmp_path / "out"
+    assert cli.main(["report", *map(str, (odd, good, long)), "--output", str(output)]) == 2
+    errors = capsys.readouterr().err.splitlines()
+    assert errors[0] == (
+        f"pierimpact: a\\udcff.yaml: a\\udcff.ipynb cannot be written to {output}: "
+        "Its name is not in UTF-8"
+    )
+    assert errors[1].endswith("File name too long")
+    assert errors[2:] == ["pierimpact: 2 of 3 cases have no report"]
+    assert {path.suffix for path in output.glob("summary.*")} == {".html", ".pdf", ".csv"}
 
 
 def test_one_case_has_no_summary(tmp_path, monkeypatch):

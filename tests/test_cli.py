@@ -1,4 +1,6 @@
+import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +10,7 @@ import pytest
 import pierimpact
 from pierimpact import cli
 from pierimpact.files.case import read_case_file
+from pierimpact.files.schema import case_schema
 from pierimpact.report.calculation import calculate
 from pierimpact.report.results import Results
 from pierimpact.report.write import Report, ReportError
@@ -108,3 +111,39 @@ def test_output_that_nobody_reads_is_no_failure_to_tell():
     )
     os.close(write)
     assert (done.returncode, done.stderr) == (1, "")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+@pytest.mark.parametrize("arguments", [["trucks", "single-unit-8t"], ["schema"]], ids=" ".join)
+def test_output_that_cannot_be_written_or_encoded(arguments):
+    command = [sys.executable, "-m", "pierimpact", *arguments]
+    environment = os.environ | {"PYTHONPATH": str(Path(pierimpact.__file__).parent.parent)}
+    with open("/dev/full", "w") as full:  # noqa: PTH123
+        done = subprocess.run(
+            command, env=environment, stdout=full, stderr=subprocess.PIPE, encoding="utf-8"
+        )
+    assert done.returncode == 1
+    assert done.stderr == "pierimpact: [Errno 28] No space left on device\n"
+    done = subprocess.run(
+        command, env=environment | {"PYTHONIOENCODING": "ascii"}, capture_output=True, check=True
+    )
+    assert done.stdout.isascii()
+    assert done.stderr == b""
+    if arguments == ["schema"]:
+        assert json.loads(done.stdout) == case_schema()
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs the signals of POSIX")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_signals_end_a_command_as_ctrl_c_does(monkeypatch, capsys, number):
+    def interrupted():
+        try:
+            os.kill(os.getpid(), number)
+        finally:
+            os.kill(os.getpid(), number)  # which is ignored, as the first is being followed
+
+    before = [signal.getsignal(each) for each in (number, signal.SIGTERM)]
+    monkeypatch.setattr("pierimpact.files.catalogue.catalogue_text", interrupted)
+    assert cli.main(["trucks"]) == 128 + number
+    assert capsys.readouterr().err == "pierimpact: interrupted, nothing written\n"
+    assert [signal.getsignal(each) for each in (number, signal.SIGTERM)] == before

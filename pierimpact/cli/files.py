@@ -104,5 +104,5 @@ def _schema(options: argparse.Namespace) -> int:
         from pierimpact.files.schema import case_schema
     except ModuleNotFoundError as error:
         return needs("schemas", error)
-    print(json.dumps(case_schema(), indent=2, ensure_ascii=False))
+    print(json.dumps(case_schema(), indent=2))  # in ASCII, which a shell redirects as it is
     return 0

@@ -104,7 +104,7 @@ def _refuse(folder: Path, names: Iterable[str], force: bool) -> None:
 
 def _recorded(folder: Path) -> dict[str, str]:
     """Return the digests of the files as they were written, none if they cannot be read."""
-    with suppress(OSError, ValueError):
+    with suppress(OSError, ValueError, RecursionError):
         recorded = json.loads((folder / RECORD).read_bytes())
         if isinstance(recorded, dict):
             return recorded

@@ -286,7 +286,7 @@ def _rows(results: Sequence[Report | Failure]) -> list[Row]:
     return [
         Row(result.html.stem, result.results, result.warnings)
         if isinstance(result, Report)
-        else Row(result.case.stem, None, [result.reason])
+        else Row(_line(result.case.stem), None, [result.reason])
         for result in results
     ]
 

@@ -42,7 +42,7 @@ start({private}, {starter})
 _ENTER = "from pierimpact.report.kernel_process import enter; enter({folder})"
 # An error in a cell is in its output; the interrupt that ends the kernel is none.
 _ARGUMENTS = ["--log-level=CRITICAL"]
-_PATIENCE = 60  # with a kernel that does not answer [s]
+_PATIENCE = 300  # with a kernel that lives and does not answer, as on a busy machine [s]
 
 
 class Kernels:

@@ -3,7 +3,6 @@
 import contextlib
 import json
 import logging
-import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -127,7 +126,7 @@ def write_report(
     case_file = read_case_file(case_path)
     files = files_of(case_path.stem, docx)
     with folder_for(output_dir) as folder:
-        _refuse_long_names(case_path, output_dir, files)
+        _refuse_names(case_path, output_dir, files)
         refuse_changed(output_dir, files, force=force)
         executed, *documents = (folder / file for file in files)
         try:
@@ -162,16 +161,27 @@ def _failed(file: Path) -> str:
     return f"{file.stem}.failed.ipynb"
 
 
-def _refuse_long_names(case_path: Path, output_dir: Path, files: Sequence[str]) -> None:
+def _refuse_names(case_path: Path, output_dir: Path, files: Sequence[str]) -> None:
+    """Refuse names that are too long, or cannot be printed in the files."""
     for file in files:
+        reason: str | None = None
         try:
-            os.lstat(output_dir / file)
+            (output_dir / file).lstat()
         except FileNotFoundError:
             pass
         except OSError as error:
+            reason = error.strerror
+        if not is_utf8(file):
+            reason = "Its name is not in UTF-8"
+        if reason:
             raise InputError(
-                f"{case_path.name}: {file} cannot be written to {output_dir}: {error.strerror}"
-            ) from None
+                f"{case_path.name}: {file} cannot be written to {output_dir}: {reason}"
+            )
+
+
+def is_utf8(name: str) -> bool:
+    """Whether a name is in UTF-8, in which it has no halves of characters."""
+    return not any("\ud800" <= letter <= "\udfff" for letter in name)
 
 
 def _keep(notebook: Path, output_dir: Path) -> str:
@@ -281,6 +291,8 @@ def folder_for(output_dir: Path) -> Iterator[Path]:
     OutputError
         When it cannot be made.
     """
+    if not is_utf8(str(output_dir)):
+        raise OutputError(f"output {output_dir} must have a name in UTF-8")
     with contextlib.ExitStack() as stack:
         try:
             output_dir.mkdir(parents=True, exist_ok=True)
