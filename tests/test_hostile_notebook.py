@@ -69,6 +69,24 @@ def test_a_page_runs_nothing_and_asks_for_nothing(tmp_path):
     assert len(requests) > 5
 
 
+EXPLORER = """
+<p>Explorer: <b id="said"></b></p>
+<script>onmessage = ({ data }) => document.querySelector("#said").append(data)</script>
+<iframe sandbox="allow-scripts"
+srcdoc="<script>parent.postMessage('it ran', '*')</script>"></iframe>
+"""
+
+
+@needs_browser
+def test_an_explorer_acts_in_the_page_of_a_lesson_and_asks_for_nothing(tmp_path):
+    lesson = notebook(HOSTILE_HTML, EXPLORER)
+    del lesson.cells[0]  # or else it is a sheet
+    (tmp_path / "page.html").write_text(SheetHTMLExporter().from_notebook_node(lesson)[0], "utf-8")
+    shown, requests = shown_by_browser(tmp_path / "page.html", tmp_path)
+    assert '<b id="said">it ran</b>' in shown
+    assert requests == set()
+
+
 def test_a_pdf_reads_no_file_and_no_package():
     raw = f'```{{=typst}}\n{PACKAGE}\n```\n\n`#read("/etc/hostname")`{{=typst}}'
     pdf, _ = SheetPDFExporter().from_notebook_node(notebook(raw))

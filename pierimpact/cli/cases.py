@@ -24,6 +24,9 @@ A report that is there already is replaced, all of its files or none. If somebod
 of them since, or written a file of that name, nothing is written, unless --force is given. Which
 files are as they were written is known from their SHA-256 in the hidden file .pierimpact.json of
 the folder.
+
+Nothing that lies beside a case file is run, and no settings of Jupyter, IPython or matplotlib are
+read.
 """
 _EXIT_CODES = """\
 Exit code: 0 if every case has its report; 2 if all failures are bad input; 1 if anything else

@@ -25,7 +25,8 @@ def add_teach(commands: Any) -> None:
     teach = commands.add_parser(
         "teach",
         help="open the teaching notebooks",
-        description="Copy the teaching notebooks to your own folder and open them in JupyterLab.",
+        description="Copy the teaching notebooks to your own folder and open them in JupyterLab, "
+        "for this machine only, until Ctrl-C ends it.",
     )
     teach.add_argument(
         "--app", action="store_true", help="serve the explorer alone, as a page without code"
