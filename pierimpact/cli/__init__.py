@@ -58,6 +58,7 @@ def parser() -> argparse.ArgumentParser:
     cases.add_report(commands)
     cases.add_compare(commands)
     network.add_portfolio(commands)
+    network.add_inventory(commands)
     files.add_trucks(commands)
     files.add_schema(commands)
     fit.add_fit(commands)

@@ -104,3 +104,63 @@ def _portfolio(options: argparse.Namespace) -> int:
             f"row {first.row}: {first.reason}"
         )
     return 0
+
+
+_INVENTORY = """\
+Make a table of piers for the command portfolio from a delimited file of the US National Bridge
+Inventory: a row for each bridge with lanes under it. The inventory does not hold piers, nor the
+speed below: a rules file (TOML) gives the keys of a case file for all bridges, and by kind of
+structure, such as
+
+  [every]
+  truck = "single-unit-8t"
+  speed = "80 km/h"
+  [[rules]]
+  when = { kind = ["1", "2"], built = [1950, 1989] }
+  column_shape = "circular"
+  column_diameter = "36 in"
+
+Beside PIERS.csv, PIERS-inventory.csv has what the inventory holds of the same bridges: coordinates,
+year, lanes under, traffic and trucks a day, and clearances.
+"""
+
+
+def add_inventory(commands: Any) -> None:
+    """Add the command `inventory` to the parser's."""
+    inventory = commands.add_parser(
+        "inventory",
+        help="make a table of piers from a bridge inventory",
+        description=_INVENTORY,
+        epilog="Exit code: 0 if the tables are written; 2 if the input is bad.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    inventory.add_argument("inventory", metavar="NBI.txt", help="delimited file of the inventory")
+    inventory.add_argument(
+        "--rules", metavar="RULES.toml", required=True, help="what the inventory does not hold"
+    )
+    inventory.add_argument(
+        "--output", metavar="PIERS.csv", default="piers.csv",
+        help="table to write (default: %(default)s)",
+    )  # fmt: skip
+    inventory.set_defaults(run=_inventory)
+
+
+def _inventory(options: argparse.Namespace) -> int:
+    try:
+        from pierimpact.files.inventory import piers_of, read_rules
+        from pierimpact.files.write import write_files
+    except ModuleNotFoundError as error:
+        return needs("inventories", error)
+    rules = read_rules(Path(options.rules))
+    piers = piers_of(Path(options.inventory), rules)
+    for reason, count in piers.left_out.most_common():
+        complain(f"left out, {count:,}: {reason}")
+    if not piers.count:
+        raise InputError(f"{options.inventory} has no bridge that gives a pier: nothing written")
+    output = Path(options.output)
+    held = output.with_name(f"{output.stem}-inventory.csv")
+    write_files({output: piers.piers, held: piers.held})
+    complain(f"by the rules, for the inventory does not hold it: {', '.join(rules.keys)}")
+    print(output, held, sep="\n")
+    return 0
