@@ -19,12 +19,12 @@ from pierimpact.units import rounded, unit_of, unit_size
 
 #: Rows that the page lists at most, the worst: more make it slow to open. This project's choice.
 LISTED = 100_000
-#: Columns that it lists; the others are in the files.
+#: Columns that it lists, in order; the others are in the files.
 SHOWN = (
-    *("rank", "id", "latitude", "longitude", "truck", "truck_mass", "speed"),
-    *("pier_frequency", "design_reaction", "band_low", "band_high", "average_25ms", "code_ratio"),
-    *("largest_shear", "shear_method", "largest_moment", "moment_method"),
-    *("utilisation_shear", "utilisation_moment", "utilisation", "utilisation_high"),
+    *("rank", "id", "utilisation", "utilisation_high", "design_reaction", "band_low", "band_high"),
+    *("code_ratio", "largest_shear", "shear_method", "utilisation_shear"),
+    *("largest_moment", "moment_method", "utilisation_moment", "truck", "truck_mass", "speed"),
+    *("pier_frequency", "average_25ms", "latitude", "longitude"),
 )
 #: Quantiles of the table, by their heading.
 QUANTILES = {"5 %": 0.05, "median": 0.5, "95 %": 0.95, "99 %": 0.99, "largest": 1.0}
@@ -56,7 +56,8 @@ def summary_page(portfolio: Portfolio, system: str, sheets: Mapping[int, str]) -
     style, script = (
         (folder / f"portfolio.{ending}").read_text(encoding="utf-8") for ending in ("css", "js")
     )
-    shown = [column for column in RESULTS if column.name in SHOWN]
+    columns = {column.name: column for column in RESULTS}
+    shown = [columns[name] for name in SHOWN]
     policy = (
         f"default-src 'none'; style-src {_hash(style)}; script-src {_hash(script)}; "
         "img-src data:; base-uri 'none'; form-action 'none'"
