@@ -108,7 +108,7 @@ class Calculation:
         found = self.function(**given)
         return {name: value for name, value in found.items() if not callable(value)}
 
-    @property
+    @cached_property
     def given(self) -> tuple[str, ...]:
         """The names of the values that it starts from."""
         parameters = inspect.signature(self.function).parameters.values()

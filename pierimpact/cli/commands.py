@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pierimpact
 from pierimpact.checks import InputError
-from pierimpact.cli import cases, files, fit, teach
+from pierimpact.cli import cases, files, fit, network, teach
 from pierimpact.cli.ending import drop_output, print_anything, signals_as_interrupts
 from pierimpact.cli.terminal import complain, defect
 from pierimpact.files.write import written
@@ -69,6 +69,8 @@ def parser() -> argparse.ArgumentParser:
     cases.add_check(commands)
     cases.add_report(commands)
     cases.add_compare(commands)
+    network.add_portfolio(commands)
+    network.add_inventory(commands)
     files.add_trucks(commands)
     files.add_schema(commands)
     fit.add_fit(commands)

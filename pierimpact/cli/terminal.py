@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 
 from pierimpact.checks import shortened
 
@@ -38,3 +38,17 @@ def progress_bar(unit: str) -> Iterator[Callable[[int], object]]:
         return
     with tqdm(unit=f" {unit}", disable=None, leave=False) as bar:
         yield bar.update
+
+
+@contextmanager
+def progress_bars() -> Iterator[Callable[[str, int], Callable[[int], object]]]:
+    """Give what starts a bar with rate and time left, of a unit and its total, on a terminal."""
+    from tqdm import tqdm
+
+    with ExitStack() as bars:
+
+        def start(unit: str, total: int) -> Callable[[int], object]:
+            bar = tqdm(total=total, unit=f" {unit}", disable=None, smoothing=0.05)
+            return bars.enter_context(bar).update
+
+        yield start

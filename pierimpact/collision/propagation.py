@@ -7,7 +7,7 @@ stays in one regime for long is looked at by itself (`ringing`).
 import math
 import warnings
 from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from pierimpact.collision.groups import CHUNK, join, replace, select, single
 from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import LinearMotion, State, linear_motion, start
 from pierimpact.collision.ringing import ring
-from pierimpact.collision.series import ARRAYS, FLOATS, Ops
+from pierimpact.collision.series import ARRAYS, FLOATS, Flag, Ops, Real
 from pierimpact.collision.stepping import advance, finished
 
 # Numerical settings.
@@ -134,11 +134,24 @@ class Running(NamedTuple):
     since: NDArray[np.int_]  # of them since the last change
 
 
+class Recorder(Protocol):
+    """Takes down what happens in the collisions that advance side by side."""
+
+    def step(
+        self, running: Running, motion: LinearMotion, after: State, h: Real, goes_on: Flag
+    ) -> None:
+        """Take down a step of length `h` [s] that ends in the states `after`, where one goes on."""
+
+    def pass_over(self, column: NDArray[np.int_]) -> None:
+        """Note collisions of which some time is passed over."""
+
+
 def propagate_all(
     chunks: Iterable[Parameters],
     shape: tuple[int, ...],
     initial_state: Callable[[Parameters, Ops], State] = start,
     progress: Callable[[int], object] = lambda count: None,
+    recorder: Recorder | None = None,
 ) -> Outcomes:
     """Propagate collisions side by side until nothing more can happen in any.
 
@@ -155,6 +168,8 @@ def propagate_all(
         From collisions to the states they start from; first touch unless another is given.
     progress : callable, optional
         Called with the number of collisions done since the last call.
+    recorder : Recorder, optional
+        Told of every step.
 
     Warns
     -----
@@ -175,8 +190,14 @@ def propagate_all(
             if since.max() >= PATIENCE:
                 patient = np.flatnonzero((since >= PATIENCE) & (since % AGAIN == 0) & ~done)
                 state = _ring(parameters, state, motion, patient)
-            state, _h = coast(parameters, state, motion, ARRAYS)
-            state, _h = advance(parameters, state, motion, ARRAYS)
+                if recorder:
+                    recorder.pass_over(column[patient])
+            for move in (coast, advance):
+                after, h = move(parameters, state, motion, ARRAYS)
+                if recorder:
+                    now = Running(parameters, state, column, steps, since)
+                    recorder.step(now, motion, after, h, ~done)
+                state = after
             steps = steps + 1
             ends = finished(parameters, state, ARRAYS) & ~done
             if ends.any():  # what comes later depends on when it is removed
@@ -190,6 +211,8 @@ def propagate_all(
                 else:
                     outcomes[:, column[i]] = outcomes_of(end, FLOATS)
             done[late] = True
+            if recorder and len(late):
+                recorder.pass_over(column[late])
         progress(int(np.count_nonzero(done)))
         running = select(Running(parameters, state, column, steps, since), ~done)
         if 2 * len(running.column) < CHUNK:

@@ -12,7 +12,7 @@ from pierimpact.collision.beam import ModalMotion, propagate_beam
 from pierimpact.collision.beam_history import BeamCollisionHistory
 from pierimpact.collision.history import CollisionHistory, RecordedStep
 from pierimpact.collision.parameters import Collision, parameter_chunks
-from pierimpact.collision.propagation import propagate, propagate_all
+from pierimpact.collision.propagation import Outcomes, propagate, propagate_all
 from pierimpact.collision.regimes import LinearMotion, State
 from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.equivalent import EquivalentPier
@@ -152,6 +152,13 @@ def peak_reactions(
     )
     parameters = (chunk for _, chunk in chunks)
     found = propagate_all(parameters, shape, progress=progress)
+    return peak_reactions_of(found, pier_stiffness, yield_reaction)
+
+
+def peak_reactions_of(
+    found: Outcomes, pier_stiffness: ArrayLike, yield_reaction: ArrayLike
+) -> PeakReactions:
+    """Return the peaks of collisions from their outcomes, arguments as in `peak_reactions`."""
     stiffness, resistance = (np.asarray(x, dtype=float) for x in (pier_stiffness, yield_reaction))
     return PeakReactions(
         engine=np.minimum(stiffness * found.engine_peak, resistance),

@@ -188,9 +188,9 @@ def reaction_band(
     """
     collision = Collision(truck, pier, speed)
     size, seed = whole("size", size, 1), whole("seed", seed, 0)
-    spreads = _spreads(truck, spread)
+    spreads = spreads_of(truck, spread)
     count, base = len(spreads), 2 ** max(round(math.log2(size / 4)), 0)
-    a, b = _factors(spreads, max(size, base), seed)
+    a, b = sampled_factors(spreads, max(size, base), seed)
     other, own = b[:, :base], a[:, :base]
     parts = (np.ones((count, 1)), _ends(spreads), a[:, :size], other, _each_alone(other, own))
     collisions = _collisions(collision.parameters, spreads, np.concatenate(parts, axis=1))
@@ -260,8 +260,8 @@ def sobol_indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
     return np.clip(total, 0.0, 1.0), np.clip(first, 0.0, 1.0)
 
 
-def _spreads(
-    truck: Truck, spread: float | Mapping[str, float | Spread] | None
+def spreads_of(
+    truck: Truck, spread: float | Mapping[str, float | Spread] | None = None
 ) -> dict[str, Spread]:
     """Return the spreads by parameter, without those that have no width."""
     asked = truck.spread if spread is None else spread
@@ -277,7 +277,7 @@ def _spreads(
     return {name: value for name, value in checked.items() if value.ends != (1.0, 1.0)}
 
 
-def _factors(spreads: Mapping[str, Spread], size: int, seed: int) -> Array:
+def sampled_factors(spreads: Mapping[str, Spread], size: int, seed: int) -> Array:
     """Return two independent samples of the factors, shape (2, parameters, size or more)."""
     if not spreads:
         return np.empty((2, 0, size))
@@ -303,7 +303,22 @@ def _each_alone(changed: Array, usual: Array) -> Array:
 
 def _collisions(nominal: Parameters, spreads: Iterable[str], factors: Array) -> Parameters:
     """Return collisions with each of the parameters times its factor, shape (parameters, n)."""
-    same, by_name = repeat(nominal, factors.shape[1]), dict(zip(spreads, factors, strict=True))
+    return times_factors(repeat(nominal, factors.shape[1]), spreads, factors)
+
+
+def times_factors(same: Parameters, spreads: Iterable[str], factors: Array) -> Parameters:
+    """Return collisions with each of the parameters times its factor.
+
+    Parameters
+    ----------
+    same : Parameters
+        Collisions, arrays of shape (n,).
+    spreads : iterable of str
+        The parameters that a factor is given for.
+    factors : ndarray, shape (parameters, n)
+        Their factors [-].
+    """
+    by_name = dict(zip(spreads, factors, strict=True))
 
     def spring(mass: str, law: str, own: Spring) -> Spring:
         names = (mass, *(f"{law}.{name}" for name in CrushSpring.__dataclass_fields__))

@@ -82,8 +82,13 @@ class Case:
     @property
     def impact_heights(self) -> tuple[float, ...]:
         """Nominal impact heights the case may come to use [m]."""
-        height = self.inputs.impact_height
-        return (LOW_IMPACT_HEIGHT, HIGH_IMPACT_HEIGHT) if height == "auto" else (height,)
+        return impact_heights(self.inputs)
+
+
+def impact_heights(inputs: Inputs) -> tuple[float, ...]:
+    """Return the nominal impact heights that inputs may come to use [m]."""
+    height = inputs.impact_height
+    return (LOW_IMPACT_HEIGHT, HIGH_IMPACT_HEIGHT) if height == "auto" else (height,)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,12 +173,11 @@ def _case(
 ) -> Case:
     inputs = read_inputs(values)
     truck_file = read_truck_file(inputs.truck, folder)
-    truck = truck_file.truck
     case = Case(
         inputs=inputs,
         given={key: value for key, value in values.items() if value is not None},
-        column=_column(inputs),
-        truck=truck if inputs.truck_mass is None else with_mass(truck, inputs.truck_mass),
+        column=column_of(inputs),
+        truck=loaded(truck_file.truck, inputs.truck_mass),
         truck_file=truck_file,
         logo=None if inputs.logo is None else read_logo(inputs.logo, folder),
         shared_sha256=shared_sha256,
@@ -322,7 +326,8 @@ def concrete_modulus(strength: float, system: str = "SI") -> float:
     return CONCRETE_FACTORS[system] * math.sqrt(strength / unit) * unit
 
 
-def _column(inputs: Inputs) -> PierColumn:
+def column_of(inputs: Inputs) -> PierColumn:
+    """Return the column of inputs; errors as in `case_from`."""
     if (inputs.elastic_modulus is None) == (inputs.concrete_strength is None):
         raise InputError("give one of elastic_modulus and concrete_strength")
     if None not in (inputs.stiffness_factor, inputs.effective_stiffness):
@@ -378,14 +383,16 @@ def section_keys(shape: type[Section]) -> dict[str, str]:
     return {SYMBOLS[symbol].key: name for name, symbol in shape.dimensions.items()}
 
 
-def with_mass(truck: Truck, mass: float) -> Truck:
-    """Return a truck with the total mass of a case [kg].
+def loaded(truck: Truck, mass: float | None) -> Truck:
+    """Return a truck with the total mass of a case [kg], or as it is where the case gives none.
 
     Raises
     ------
     InputError
         When too little is left for the body.
     """
+    if mass is None:
+        return truck
     least = truck.engine_mass + POSSIBLE["body_mass"][0]
     if mass < least:
         raise InputError(

@@ -11,7 +11,7 @@ from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError, brief, known, number, one_line, one_of
 from pierimpact.collision.parameters import Collision
 from pierimpact.design.comparison import RESPONSES, Measured, check_response
-from pierimpact.files.case import case_from, with_mass
+from pierimpact.files.case import case_from, loaded
 from pierimpact.files.inputs import PHYSICAL_KEYS
 from pierimpact.files.limits import PIER_MASS, PIER_STIFFNESS, possible, within
 from pierimpact.files.reading import read_text
@@ -167,7 +167,7 @@ def _collision(values: Mapping[str, Any], folder: Path) -> Collision:
     )
     truck = read_truck_file(values["truck"], folder).truck
     if "truck_mass" in values:
-        truck = with_mass(truck, _possible("truck_mass", values))
+        truck = loaded(truck, _possible("truck_mass", values))
     damping = {name: values[name] for name in values if name == "damping_ratio"}
     pier = EquivalentPier(mass=mass, stiffness=stiffness, **damping)
     return Collision(truck, pier, _possible("speed", values))

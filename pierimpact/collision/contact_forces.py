@@ -1,0 +1,248 @@
+"""Contact forces of many collisions at a time: the largest, and the largest moving average.
+
+The impulse on the pier is what the truck has lost of its momentum, but for the road's friction, so
+that it is known at the ends of every step with its first two rates. Over a step it follows the
+polynomial of the fifth degree through both, which is exact where the forces are constant. Derived
+here; the histories of single collisions (`averages`) have the same from the motion of the pier.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pierimpact.checks import positive
+from pierimpact.collision.averages import largest_average_force
+from pierimpact.collision.parameters import Collision, parameter_chunks
+from pierimpact.collision.propagation import Running, propagate_all
+from pierimpact.collision.regimes import LinearMotion, State, accelerations
+from pierimpact.collision.simulate import SHORTEST, PeakReactions, peak_reactions_of, simulate
+from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.vehicle.truck import Truck
+
+Array: TypeAlias = NDArray[np.float64]
+
+# Numerical: halvings of the stretch in which an average turns from rising to falling.
+HALVINGS = 20
+
+
+class ContactForces(NamedTuple):
+    """Contact forces of many collisions, arrays of shape (n,)."""
+
+    largest: Array  #: [N]
+    average: Array  #: largest moving average; nan where the collision is over sooner [N]
+
+
+class _Steps(NamedTuple):
+    """Steps of collisions: when each begins, its length, and the impulse at both ends with rates.
+
+    Arrays of shape (n,), ordered by collision and time.
+    """
+
+    column: Any  # number of the collision
+    start: Array
+    length: Array
+    gained: Array  # impulse over the step [N s]
+    force: Array  # at the start [N]
+    force_after: Array  # at the end [N]
+    rate: Array  # of the force, at the start [N/s]
+    rate_after: Array
+
+
+class _Recorder:
+    """Takes down the steps of collisions side by side."""
+
+    def __init__(self) -> None:
+        self._steps: list[_Steps] = []
+        self.passed_over: set[int] = set()
+
+    def step(
+        self, running: Running, motion: LinearMotion, after: State, h: Array, goes_on: Any
+    ) -> None:
+        h = h + 0.0 * running.state.time
+        taken = goes_on & (h > SHORTEST)
+        parameters, before = running.parameters, running.state
+        m1, m2, on_pier = parameters.engine.mass, parameters.body.mass, parameters.on_pier
+        ends = []
+        for state in (before, after):
+            position = state.position
+            F1, F2 = motion.forces(position)
+            _, d2, ap = accelerations(motion, position)
+            rate1, rate2 = motion.slope1 * position.u1, motion.slope2 * position.u2
+            # What sticks to the pier takes its share of the engine's force, and moves with it.
+            common = motion.inverse_mp * rate1 - motion.b * position.vp - motion.c * ap
+            held = before.stuck & on_pier
+            force = F1 + np.where(on_pier, -m2 * (d2 + ap), F2)
+            rate = rate1 + np.where(held, -m2 * common, rate2)
+            momentum = m1 * (position.u1 + position.vp), m2 * (position.u2 + position.vp)
+            ends.append((force, rate, F2, rate2, *momentum))
+        (force, rate, F2, rate2, p1, p2), (force_after, rate_after, F2a, rate2a, p1a, p2a) = ends
+        # A body that sticks to the road loses to the pier what the road gives it.
+        at_rest = 0.5 * h * (F2 + F2a) + h * h * (rate2 - rate2a) / 12.0
+        sliding = p2 - p2a - np.where(on_pier, 0.0, motion.friction) * h
+        gained = p1 - p1a + np.where(before.stuck & ~on_pier, at_rest, sliding)
+        step = (running.column, before.time, h, gained, force, force_after, rate, rate_after)
+        self._steps.append(_Steps(*(values[taken] for values in step)))
+
+    def pass_over(self, column: NDArray[np.int_]) -> None:
+        self.passed_over.update(column.tolist())
+
+    def steps(self) -> _Steps:
+        """Return all steps by collision and time."""
+        joined = [np.concatenate(values) for values in zip(*self._steps, strict=True)]
+        order = np.argsort(joined[0], kind="stable")
+        return _Steps(*(values[order] for values in joined))
+
+
+def contact_forces(
+    truck: Truck | Sequence[Truck],
+    pier_mass: ArrayLike,
+    pier_stiffness: ArrayLike,
+    damping_ratio: ArrayLike,
+    speed: ArrayLike,
+    window: float,
+) -> tuple[PeakReactions, ContactForces]:
+    """Return the peak reactions of collisions, as `peak_reactions`, and their contact forces.
+
+    Memory grows with the number of collisions, by some 10 kB each.
+
+    Parameters
+    ----------
+    truck, pier_mass, pier_stiffness, damping_ratio, speed
+        As in `peak_reactions`, broadcast to shape (n,).
+    window : float
+        Length of the moving window [s].
+
+    Raises
+    ------
+    InputError
+        As in `peak_reactions`, and when the window is not positive.
+
+    Warns
+    -----
+    UnfinishedWarning
+        As in `peak_reactions`.
+    """
+    window = positive("window", window)
+    given = pier_mass, pier_stiffness, damping_ratio, speed
+    shape, chunks = parameter_chunks(truck, *given)
+    recorder = _Recorder()
+    outcomes = propagate_all((chunk for _, chunk in chunks), shape, recorder=recorder)
+    steps, size = recorder.steps(), math.prod(shape)
+    forces = ContactForces(_largest(steps, size), _largest_average(steps, size, window))
+    numbers = np.broadcast_arrays(np.empty(shape), *given)[1:]
+    for column in recorder.passed_over:
+        own = truck[column] if isinstance(truck, Sequence) else truck
+        mass, stiffness, ratio, velocity = (float(values.flat[column]) for values in numbers)
+        pier = EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=ratio)
+        largest, average = _of_one(Collision(own, pier, velocity), window)
+        forces.largest[column], forces.average[column] = largest, average
+    return peak_reactions_of(outcomes, pier_stiffness, math.inf), forces
+
+
+def _of_one(collision: Collision, window: float) -> tuple[float, float]:
+    """Return largest contact force and average of a collision, from its history."""
+    try:
+        history = simulate(collision.truck, collision.equivalent_pier, collision.speed)
+        largest = float(history.contact_force.max())
+    except RuntimeError:  # it does not come to an end, or vibrates too often for a history
+        return math.nan, math.nan
+    over = window > history.time[-1]
+    return largest, math.nan if over else largest_average_force(history, window).force
+
+
+def _largest(steps: _Steps, size: int) -> Array:
+    """Return the largest contact force of each collision: at a step's ends, or in between."""
+    rises_and_falls = (steps.rate > 0.0) & (steps.rate_after < 0.0)
+    inner = _Steps(*(values[rises_and_falls] for values in steps))
+    places = np.linspace(0.0, 1.0, 17)[1:-1, None]
+    between = _force(inner, places).max(axis=0) if len(inner.start) else inner.force
+    found = np.zeros(size)
+    for column, force in (
+        (steps.column, steps.force),
+        (steps.column, steps.force_after),
+        (inner.column, between),
+    ):
+        np.maximum.at(found, column, force)
+    return found
+
+
+def _impulse(steps: _Steps, s: Array) -> Array:
+    """Return the impulse gained up to the fraction `s` of steps [N s]."""
+    h, end = steps.length, steps.gained
+    F, G = h * steps.force, h * h * steps.rate
+    a, b, c = _rest(steps)
+    return np.where(s < 1.0, s * (F + s * (0.5 * G + s * (a + s * (b + s * c)))), end)
+
+
+def _force(steps: _Steps, s: Array) -> Array:
+    """Return the contact force at the fraction `s` of steps [N]."""
+    h = steps.length
+    a, b, c = _rest(steps)
+    return steps.force + s * (h * steps.rate + s * (3.0 * a + s * (4.0 * b + s * 5.0 * c)) / h)
+
+
+def _rest(steps: _Steps) -> tuple[Array, Array, Array]:
+    """Return the coefficients of s³, s⁴ and s⁵ that lead to the end of the step."""
+    h = steps.length
+    F, F1, G, G1 = (
+        h * steps.force,
+        h * steps.force_after,
+        h * h * steps.rate,
+        h * h * steps.rate_after,
+    )
+    impulse, force, rate = steps.gained - F - 0.5 * G, F1 - F - G, G1 - G
+    return (
+        10.0 * impulse - 4.0 * force + 0.5 * rate,
+        -15.0 * impulse + 7.0 * force - rate,
+        6.0 * impulse - 3.0 * force + 0.5 * rate,
+    )
+
+
+def _largest_average(steps: _Steps, size: int, window: float) -> Array:
+    """Return the largest moving average of each collision; nan where it is over sooner."""
+    first = np.flatnonzero(np.diff(steps.column, prepend=-1))
+    last = np.append(first[1:], len(steps.column)) - 1
+    ends = np.full(size, -math.inf)
+    ends[steps.column[last]] = steps.start[last] + steps.length[last]
+    total = np.cumsum(steps.gained)
+    begun = np.repeat(total[first] - steps.gained[first], last - first + 1)
+    before = total - steps.gained - begun  # impulse before each step
+    # All steps on one line: each collision has its own stretch of time on it.
+    span = max(ends.max(), window) + 2.0 * window
+    keys = steps.column * span + steps.start
+
+    def at(column: Any, time: Array) -> tuple[Array, Array]:
+        """Return the impulse since first touch and the force."""
+        place = np.searchsorted(keys, column * span + np.maximum(time, 0.0), side="right") - 1
+        own = _Steps(*(values[place] for values in steps))
+        s = np.clip((time - own.start) / own.length, 0.0, 1.0)
+        touching = time > 0.0
+        impulse = before[place] + _impulse(own, s)
+        return np.where(touching, impulse, 0.0), np.where(touching, _force(own, s), 0.0)
+
+    def average(column: Any, start: Array) -> tuple[Array, Array]:
+        """Return the average and its rate."""
+        (before_it, F0), (after_it, F1) = at(column, start), at(column, start + window)
+        return (after_it - before_it) / window, (F1 - F0) / window
+
+    # Between neighbouring starts neither end of the window passes the end of a step.
+    column = np.concatenate((steps.column, steps.column, steps.column[last]))
+    start = np.concatenate((steps.start, steps.start - window, ends[steps.column[last]] - window))
+    fits = (start <= ends[column] - window) & (ends[column] >= window)
+    column, start = column[fits], start[fits]
+    order = np.lexsort((start, column))
+    column, start = column[order], start[order]
+    value, rate = average(column, start)
+    found = np.full(size, -math.inf)
+    np.maximum.at(found, column, value)
+    turns = np.flatnonzero((column[1:] == column[:-1]) & (rate[:-1] > 0.0) & (rate[1:] < 0.0))
+    column, low, high = column[turns], start[turns], start[turns + 1]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        value, rate = average(column, middle)
+        low, high = np.where(rate > 0.0, middle, low), np.where(rate > 0.0, high, middle)
+    np.maximum.at(found, column, value)
+    return np.where(np.isfinite(found), found, math.nan)

@@ -1,0 +1,280 @@
+"""The US National Bridge Inventory as a table of piers.
+
+Its published delimited files hold where a bridge is, what passes over and under it and with how
+much room, but not its piers: these come from the rules of the user, by kind of structure.
+
+Items, with the digits of coordinates, as read in the record format of the Federal Highway
+Administration (fhwa.dot.gov/bridge/nbi/format.cfm): latitude has 8, longitude 9, and as read in
+excerpts of its coding guide they are degrees, minutes, seconds and hundredths. The headings are
+second-hand, as programs of others read these files; so is that text is in single quotes and that
+longitudes are west. Where a file has others, the rules name them.
+"""
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pierimpact.checks import InputError, brief, known, no_formula
+from pierimpact.files.piers import KEYS, REQUIRED
+from pierimpact.files.toml_table import read_toml
+
+#: What is taken of a bridge, with the heading of its field.
+FIELDS = {
+    "state": "STATE_CODE_001",
+    "structure": "STRUCTURE_NUMBER_008",
+    "record": "RECORD_TYPE_005A",
+    "latitude": "LAT_016",
+    "longitude": "LONG_017",
+    "built": "YEAR_BUILT_027",
+    "lanes_under": "TRAFFIC_LANES_UND_028B",
+    "traffic": "ADT_029",
+    "truck_share": "PERCENT_ADT_TRUCK_109",
+    "kind": "STRUCTURE_KIND_043A",
+    "type": "STRUCTURE_TYPE_043B",
+    "vertical_clearance": "VERT_CLR_UND_054B",
+    "right_clearance": "LAT_UND_MT_055B",
+    "left_clearance": "LEFT_LAT_UND_MT_056",
+}
+#: What a rule can ask for: a list of codes each, and for the year the first and the last.
+CONDITIONS = ("kind", "type", "state", "record", "built")
+#: The columns of what the inventory holds, beside the table of piers. Traffic is that of the route
+#: of the record, which by its type goes over or under the bridge.
+HELD = (
+    *("id", "latitude [°]", "longitude [°]", "record", "built", "lanes_under"),
+    *("traffic [1/day]", "trucks [1/day]", "vertical_clearance [m]"),
+    *("right_clearance [m]", "left_clearance [m]"),
+)
+_DIGITS = {"latitude": 8, "longitude": 9}
+
+
+class Rule(NamedTuple):
+    """Keys of a case file for the bridges that meet some conditions."""
+
+    when: Mapping[str, tuple[str, ...]]  #: codes by field; of the year the first and the last
+    values: Mapping[str, str]
+
+    def holds(self, bridge: Mapping[str, str]) -> bool:
+        """Whether a bridge meets all conditions."""
+        for name, codes in self.when.items():
+            if name == "built":
+                first, last = map(int, codes)
+                if not (bridge[name].isdigit() and first <= int(bridge[name]) <= last):
+                    return False
+            elif _code(bridge[name]) not in codes:
+                return False
+        return True
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rules:
+    """What a rules file says."""
+
+    fields: Mapping[str, str]  #: headings by what they are of
+    east: tuple[str, ...]  #: codes of the states whose longitudes are east
+    every: Mapping[str, str]  #: keys of a case file for all bridges
+    rules: tuple[Rule, ...]  #: of which the first that holds adds its keys
+
+    @property
+    def keys(self) -> list[str]:
+        """The keys that any bridge may get, in the order of a case file."""
+        given = {*self.every, *(key for rule in self.rules for key in rule.values)}
+        return [key for key in KEYS if key in given]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Piers:
+    """The piers of an inventory as two tables, and what was left out."""
+
+    piers: bytes  #: CSV for `pierimpact portfolio`
+    held: bytes  #: CSV of what the inventory holds, by the same ids
+    count: int
+    left_out: Counter[str] = field(default_factory=Counter)  #: bridges by reason
+
+
+def read_rules(path: Path) -> Rules:
+    """Return the rules of a TOML file.
+
+    Its table `fields` names headings that differ, `east` lists states whose longitudes are east,
+    `every` has keys of a case file for all bridges, and each of `rules` has under `when` the codes
+    it is for, and keys of a case file.
+
+    Raises
+    ------
+    InputError
+        When it cannot be read or breaks a rule, in one line.
+    """
+    try:
+        table = read_toml(path).table
+        for name in table:
+            known(name, ("fields", "east", "every", "rules"), "a table of a rules file")
+        names = _texts("fields", table.get("fields", {}))
+        for name in names:
+            known(name, FIELDS, "a field of the inventory")
+        listed = table.get("rules", [])
+        if not isinstance(listed, list):
+            raise InputError("rules must be written as [[rules]], one for each kind of structure")
+        every = _keys("every", table.get("every", {}))
+        rules = tuple(_rule(f"rules[{n}]", rule) for n, rule in enumerate(listed, 1))
+        east = _codes("east", table.get("east", []))
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    return Rules(fields=FIELDS | names, east=east, every=every, rules=rules)
+
+
+def _rule(name: str, rule: Any) -> Rule:
+    if not isinstance(rule, dict):
+        raise InputError(f"{name} must be a table, got {brief(rule)}")
+    asked = rule.get("when", {})
+    if not isinstance(asked, dict):
+        raise InputError(f"{name}.when must be a table of codes, got {brief(asked)}")
+    when = {}
+    for what, codes in asked.items():
+        known(what, CONDITIONS, f"a condition ({', '.join(CONDITIONS)})")
+        when[what] = _codes(f"{name}.when.{what}", codes)
+        if what == "built" and len(when[what]) != 2:
+            raise InputError(f"{name}.when.built must be the first and the last year")
+    keys = {key: value for key, value in rule.items() if key != "when"}
+    return Rule(when, _keys(name, keys))
+
+
+def _keys(name: str, table: Any) -> dict[str, str]:
+    texts = _texts(name, table)
+    for key in texts:
+        known(key, KEYS, "a key of a case file that a table of piers can have")
+    return texts
+
+
+def _texts(name: str, table: Any) -> dict[str, str]:
+    if not isinstance(table, dict):
+        raise InputError(f"{name} must be a table, got {brief(table)}")
+    for key, value in table.items():
+        if isinstance(value, bool) or not isinstance(value, str | int | float):
+            raise InputError(f"{name}.{key} must be text or a number, got {brief(value)}")
+    return {key: str(value) for key, value in table.items()}
+
+
+def _codes(name: str, values: Any) -> tuple[str, ...]:
+    if not isinstance(values, list) or not all(
+        isinstance(value, int | str) and not isinstance(value, bool) and _is_code(value)
+        for value in values
+    ):
+        raise InputError(f"{name} must be a list of codes, got {brief(values)}")
+    return tuple(_code(str(value)) for value in values)
+
+
+def _is_code(value: object) -> bool:
+    return bool(str(value).strip())
+
+
+def _code(text: str) -> str:
+    """Return a code without the zeros before it, which some files have and others have not."""
+    return text.lstrip("0") or text[-1:]
+
+
+def piers_of(path: Path, rules: Rules) -> Piers:
+    """Return the piers of an inventory file: one for each bridge with lanes under it.
+
+    Raises
+    ------
+    InputError
+        When the file cannot be read, or lacks a field; the message names it and its heading.
+    """
+    piers, held = io.StringIO(), io.StringIO()
+    to_piers, to_held = (csv.writer(file, lineterminator="\n") for file in (piers, held))
+    keys = rules.keys
+    to_piers.writerow(["id", "latitude", "longitude", *keys])
+    to_held.writerow(HELD)
+    left_out: Counter[str] = Counter()
+    seen: set[str] = set()
+    try:
+        for bridge in _bridges(path, rules.fields):
+            try:
+                name = f"{_code(bridge['state'])}-{bridge['structure']}"
+                values = _values(bridge, rules)
+                place = [_degrees(bridge, which) for which in _DIGITS]
+                if name in seen:
+                    raise InputError("another route of a bridge that has a row already")
+            except InputError as error:
+                left_out[str(error)] += 1
+                continue
+            seen.add(name)
+            if place[1] is not None and _code(bridge["state"]) not in rules.east:
+                place[1] = -place[1]
+            degrees = ["" if x is None else f"{x:.6f}" for x in place]
+            cells = [no_formula(values.get(key, "")) for key in keys]
+            to_piers.writerow([no_formula(name), *degrees, *cells])
+            to_held.writerow([no_formula(name), *degrees, *_held(bridge)])
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    return Piers(
+        piers=piers.getvalue().encode(),
+        held=held.getvalue().encode(),
+        count=len(seen),
+        left_out=left_out,
+    )
+
+
+def _bridges(path: Path, fields: Mapping[str, str]) -> Iterator[dict[str, str]]:
+    """Yield what is taken of each bridge, as text."""
+    with path.open(encoding="latin-1", newline="") as file:
+        first = file.readline()
+        quote = "'" if "'" in first + file.readline() else '"'
+        file.seek(0)
+        rows = csv.reader(file, quotechar=quote)
+        heading = [cell.strip().removeprefix("ï»¿") for cell in next(rows, [])]
+        places = {}
+        for what, name in fields.items():
+            if name not in heading:
+                raise InputError(
+                    f"has no field {name}, which is the {what}: name its heading in the rules, "
+                    f'[fields] {what} = "…"'
+                )
+            places[what] = heading.index(name)
+        for row in rows:
+            if len(row) == len(heading):
+                yield {what: row[place].strip() for what, place in places.items()}
+
+
+def _values(bridge: Mapping[str, str], rules: Rules) -> dict[str, str]:
+    """Return the keys of a bridge's pier."""
+    if not (lanes := bridge["lanes_under"]).isdigit() or int(lanes) == 0:
+        raise InputError("no lanes under it")
+    rule = next((rule for rule in rules.rules if rule.holds(bridge)), None)
+    if rules.rules and rule is None:
+        kind, kind_of = _code(bridge["kind"]), _code(bridge["type"])
+        raise InputError(f"no rule for kind {kind}, type {kind_of}")
+    values = {**rules.every, **(rule.values if rule else {})}
+    for key in REQUIRED:
+        if key != "id" and key not in values:
+            raise InputError(f"no rule gives {key}, which the inventory does not hold")
+    return values
+
+
+def _degrees(bridge: Mapping[str, str], which: str) -> float | None:
+    """Return a coordinate [°]; None where it is blank or zero."""
+    text, digits = bridge[which], _DIGITS[which]
+    if not text.strip("0 "):
+        return None
+    text = text.zfill(digits)
+    minutes, seconds = text[-6:-4], text[-4:]
+    if not (text.isdigit() and len(text) == digits and int(minutes) < 60 and int(seconds) < 6000):
+        raise InputError(f"{which} is not degrees, minutes, seconds and hundredths")
+    return int(text[:-6]) + int(minutes) / 60 + int(seconds) / 360_000
+
+
+def _held(bridge: Mapping[str, str]) -> Iterable[str]:
+    try:
+        trucks = f"{float(bridge['traffic']) * float(bridge['truck_share']) / 100:.6g}"
+    except ValueError:  # one of them is not given
+        trucks = ""
+    return (
+        *(bridge[name] for name in ("record", "built", "lanes_under", "traffic")),
+        trucks,
+        *(bridge[f"{side}_clearance"] for side in ("vertical", "right", "left")),
+    )

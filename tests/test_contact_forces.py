@@ -1,0 +1,91 @@
+"""Contact forces of many collisions against the histories of each."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pierimpact import EquivalentPier, load_truck, peak_reactions, reaction_band, simulate
+from pierimpact.checks import InputError
+from pierimpact.collision.averages import largest_average_force
+from pierimpact.collision.contact_forces import contact_forces
+from pierimpact.collision.parameters import Collision, parameter_chunks
+from pierimpact.design import domain
+from pierimpact.design.band import spreads_of
+from pierimpact.design.quick_band import quick_band
+from pierimpact.pier.equivalent import damping_coefficient
+
+COUNT = 60
+WINDOW = 0.025
+
+
+@pytest.fixture(scope="module")
+def collisions():
+    """Trucks of all masses with either friction on piers of the domain, from slow to fast."""
+    random = np.random.default_rng(4)
+    drawn = domain.sample(COUNT, 8)
+    mass, stiffness = drawn.pier_mass, drawn.pier_stiffness
+    ratio = drawn.pier_damping / damping_coefficient(mass, stiffness, 1.0)
+    base = load_truck("single-unit-8t")
+    trucks = [
+        replace(base.loaded_to(total), friction_on=end, friction_force=friction)
+        for total, end, friction in zip(
+            random.uniform(6e3, 20e3, COUNT),
+            random.choice(["road", "pier"], COUNT),
+            random.uniform(0.0, 28e3, COUNT),
+            strict=True,
+        )
+    ]
+    return trucks, mass, stiffness, ratio, drawn.speed * random.uniform(0.1, 1.2, COUNT)
+
+
+def test_they_are_those_of_the_histories(collisions):
+    peaks, forces = contact_forces(*collisions, WINDOW)
+    assert np.array_equal(peaks.governing, peak_reactions(*collisions).governing)
+    for i, (truck, mass, stiffness, ratio, speed) in enumerate(zip(*collisions, strict=True)):
+        pier = EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=ratio)
+        history = simulate(truck, pier, speed)
+        average = largest_average_force(history, WINDOW).force
+        assert forces.average[i] == pytest.approx(average, rel=1e-3)
+        # Its samples miss a maximum by 0.2 % at most.
+        assert forces.largest[i] == pytest.approx(1.001 * history.contact_force.max(), rel=2e-3)
+
+
+def test_the_longer_the_window_the_smaller_the_average_and_none_beyond_the_end(collisions):
+    averages = [contact_forces(*collisions, w)[1].average for w in (1e-4, 0.01, 0.04)]
+    largest = contact_forces(*collisions, 1e-4)[1].largest
+    for longer, shorter in zip([*averages[1:]], averages[:-1], strict=True):
+        known = np.isfinite(longer)
+        assert np.all(longer[known] <= shorter[known] * (1.0 + 1e-9))
+    assert np.all(averages[0] <= largest * (1.0 + 1e-6))
+    assert np.all(np.isnan(contact_forces(*collisions, 100.0)[1].average))
+    with pytest.raises(InputError, match="window must be positive"):
+        contact_forces(*collisions, 0.0)
+
+
+def test_what_vibrates_for_long_is_looked_at_alone():
+    # A very light, stiff pier under a heavy truck: thousands of cycles before anything changes.
+    truck = load_truck("single-unit-8t")
+    peaks, forces = contact_forces(truck, [1.0, 8e3], [2e9, 284e6], 1e-6, 22.2, WINDOW)
+    history = simulate(truck, EquivalentPier(mass=8e3, stiffness=284e6, damping_ratio=1e-6), 22.2)
+    average = largest_average_force(history, WINDOW).force
+    assert forces.average[1] == pytest.approx(average, rel=1e-3)
+    assert math.isfinite(peaks.governing[0])
+
+
+def test_a_quick_band_is_about_that_of_the_full_model(collisions):
+    few = 6
+    trucks, *given = (values[:few] for values in collisions)
+    speed = np.full(few, 22.2)
+    trucks = [load_truck("single-unit-8t").loaded_to(own.mass) for own in trucks]
+    reactions = peak_reactions(trucks, *given[:3], speed).governing
+    ((_, parameters),) = parameter_chunks(trucks, *given[:3], speed)[1]
+    low, high = quick_band(parameters, reactions, spreads_of(trucks[0]))
+    for i, truck in enumerate(trucks):
+        pier = EquivalentPier(mass=given[0][i], stiffness=given[1][i], damping_ratio=given[2][i])
+        expected = reaction_band(truck, pier, 22.2, size=256).quantiles()
+        assert [low[i], high[i]] == pytest.approx(expected[[0, 2]], rel=0.12)
+    # Of a truck that is known exactly there is no band but its reaction.
+    assert Collision(trucks[0], pier, 22.2).truck.spread
+    assert np.array_equal(quick_band(parameters, reactions, {}), [reactions, reactions])

@@ -1,0 +1,145 @@
+"""The US National Bridge Inventory as a table of piers, from a small file made by hand."""
+
+import csv
+import io
+
+import numpy as np
+import pytest
+
+from pierimpact.checks import InputError
+from pierimpact.cli import main
+from pierimpact.files.inventory import FIELDS, piers_of, read_rules
+from pierimpact.files.piers import read_pier_table
+
+RULES = """
+[every]
+truck = "single-unit-8t"
+speed = "80 km/h"
+impact_height = "1.2 m"
+density = "2400 kg/m^3"
+elastic_modulus = "25 GPa"
+base = "fixed"
+top = "pinned"
+column_height = "5 m"
+[[rules]]
+when = { kind = ["1", "02"], built = [1950, 1989] }
+column_shape = "circular"
+column_diameter = "36 in"
+[[rules]]
+when = { kind = [3] }
+column_shape = "rectangular"
+column_width = "4 ft"
+column_depth = "3 ft"
+"""
+BRIDGE = {
+    "state": "26", "structure": "'00000000000A1, N'", "record": "2", "latitude": "42201500",
+    "longitude": "083033045", "built": "1971", "lanes_under": "04", "traffic": "021000",
+    "truck_share": "12", "kind": "1", "type": "02", "vertical_clearance": "4.42",
+    "right_clearance": "2.1", "left_clearance": "0.0",
+}  # fmt: skip
+
+
+def inventory(path, bridges, fields=FIELDS):
+    lines = [",".join(["OTHER_000", *fields.values()])]
+    lines += [",".join(["'x, y'", *(BRIDGE | bridge).values()]) for bridge in bridges]
+    path.write_text("\n".join(lines) + "\n", encoding="latin-1")
+    return path
+
+
+@pytest.fixture
+def rules(tmp_path):
+    path = tmp_path / "rules.toml"
+    path.write_text(RULES)
+    return path
+
+
+def rows(content):
+    return list(csv.DictReader(io.StringIO(content.decode())))
+
+
+def test_a_bridge_becomes_a_pier_by_the_rule_of_its_kind(tmp_path, rules):
+    bridges = [
+        {},
+        {"structure": "B2", "kind": "3", "built": "2001", "longitude": "83033045"},
+        {"structure": "B3", "lanes_under": "00"},
+        {"structure": "B4", "built": "1990"},
+        {"structure": "B5", "latitude": "42601500"},
+        {"structure": "B6", "kind": "2", "latitude": "00000000", "longitude": "", "traffic": ""},
+        {"structure": "B2"},
+    ]
+    found = piers_of(inventory(tmp_path / "nbi.txt", bridges), read_rules(rules))
+    piers, held = rows(found.piers), rows(found.held)
+    assert [own["id"] for own in piers] == ["26-00000000000A1, N", "26-B2", "26-B6"]
+    assert [own["id"] for own in held] == [own["id"] for own in piers]
+    assert [own["column_diameter"] for own in piers] == ["36 in", "", "36 in"]
+    assert [own["column_depth"] for own in piers] == ["", "3 ft", ""]
+    assert float(piers[0]["latitude"]) == pytest.approx(42.0 + 20.0 / 60.0 + 15.0 / 3600.0)
+    # Zeros before it may be lost, and it counts as west.
+    longitude = -(83.0 + 3.0 / 60.0 + 30.45 / 3600.0)
+    assert [float(own["longitude"]) for own in piers[:2]] == pytest.approx([longitude] * 2)
+    assert piers[2]["latitude"] == piers[2]["longitude"] == ""
+    assert [own["trucks [1/day]"] for own in held] == ["2520", "2520", ""]
+    assert dict(found.left_out) == {
+        "no lanes under it": 1,
+        "no rule for kind 1, type 2": 1,
+        "latitude is not degrees, minutes, seconds and hundredths": 1,
+        "another route of a bridge that has a row already": 1,
+    }
+
+
+def test_coordinates_are_unpacked(tmp_path, rules):
+    random = np.random.default_rng(2)
+    places = random.integers((0, 0, 0, 0, 0, 0), (90, 60, 6000, 180, 60, 6000), (50, 6))
+    bridges = [
+        {
+            "structure": f"B{i}",
+            "latitude": f"{a:02}{b:02}{c:04}",
+            "longitude": f"{d:03}{e:02}{f:04}",
+        }
+        for i, (a, b, c, d, e, f) in enumerate(places)
+    ]
+    found = rows(piers_of(inventory(tmp_path / "nbi.txt", bridges), read_rules(rules)).piers)
+    for own, (a, b, c, d, e, f) in zip(found, places, strict=True):
+        expected = a + (b + c / 6000.0) / 60.0, -(d + (e + f / 6000.0) / 60.0)
+        assert (float(own["latitude"]), float(own["longitude"])) == pytest.approx(
+            expected, abs=1e-6
+        )
+
+
+def test_the_command_writes_a_table_that_the_portfolio_reads(tmp_path, rules, capsys):
+    file, output = inventory(tmp_path / "nbi.txt", [{}, {"lanes_under": "0"}]), tmp_path / "p.csv"
+    assert main(["inventory", str(file), "--rules", str(rules), "--output", str(output)]) == 0
+    table = read_pier_table(output)
+    assert table.size == 1
+    said = capsys.readouterr()
+    assert said.out.splitlines() == [str(output), str(tmp_path / "p-inventory.csv")]
+    assert "left out, 1: no lanes under it" in said.err
+    assert "the inventory does not hold it: column_shape, column_diameter" in said.err
+
+
+@pytest.mark.parametrize(
+    ("text", "error"),
+    [
+        ("[fields]\nlat = 'x'", "'lat' is not a field of the inventory"),
+        ("[every]\nspede = '80 km/h'", "'spede' is not a key .*did you mean speed"),
+        ("[[rules]]\nwhen = {kinds = [1]}", "'kinds' is not a condition"),
+        ("[[rules]]\nwhen = {built = [1950]}", "must be the first and the last year"),
+        ("[[rules]]\nwhen = {kind = 1}", "must be a list of codes, got 1"),
+        ("[rules]\nkind = 1", r"rules must be written as \[\[rules\]\]"),
+        ("other = 1", "'other' is not a table of a rules file"),
+    ],
+)
+def test_bad_rules_are_one_line(tmp_path, text, error):
+    (tmp_path / "rules.toml").write_text(text)
+    with pytest.raises(InputError, match=error) as caught:
+        read_rules(tmp_path / "rules.toml")
+    assert "\n" not in str(caught.value)
+
+
+def test_a_heading_that_is_not_there_is_asked_of_the_user(tmp_path, rules):
+    fields = FIELDS | {"latitude": "LATDD"}
+    file = inventory(tmp_path / "nbi.txt", [{}], fields)
+    with pytest.raises(InputError, match="has no field LAT_016, which is the latitude: name its"):
+        piers_of(file, read_rules(rules))
+    rules.write_text(f'[fields]\nlatitude = "LATDD"\n{RULES}')
+    assert piers_of(file, read_rules(rules)).count == 1

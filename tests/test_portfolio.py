@@ -1,0 +1,313 @@
+"""Portfolios: rows as in a report, errors, interruptions, and the same bytes by any worker."""
+
+import base64
+import csv
+import hashlib
+import html
+import json
+import math
+import re
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+from dask_cluster import dask_cluster
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pierimpact.cli import main
+from pierimpact.design.static_forces import StaticForcesInCollision
+from pierimpact.files.case import case_from
+from pierimpact.files.piers import read_pier_table
+from pierimpact.files.trucks import load_truck
+from pierimpact.network import portfolio as portfolio_module
+from pierimpact.network import workers
+from pierimpact.network.files import write_portfolio
+from pierimpact.network.piece import Task, calculate_beams, calculate_piece
+from pierimpact.network.portfolio import calculate_portfolio
+from pierimpact.network.tables import RESULTS, figures
+from pierimpact.report.calculation import AVERAGE, calculate
+
+HEADING = (
+    "id,latitude,longitude,column_shape,column_diameter [in],column_width [ft],column_depth [ft],"
+    "column_height [m],elastic_modulus [GPa],density [kg/m^3],base,top,base_rotation_stiffness,"
+    "truck,truck_mass [t],speed [km/h],impact_height,shear_resistance [MN],moment_resistance,"
+    "member_forces"
+)
+ROWS = """\
+P1,42.1,-83.2,circular,36,,,5,25,2400,fixed,pinned,,single-unit-8t,8,80,1.2 m,2.5,4 MN*m,
+"P,2",42.3,-83.4,circular,48,,,6,25,2400,fixed,fixed,,single-unit-8t,12,90,auto,9,,
+P3,,,rectangular,,4,3,7,28,2450,pinned,pinned,900 MN*m/rad,tractor-trailer-36t,,50,4 ft,,,
+P4,40.0,-80.0,circular,60,,,9,25,2400,fixed,free,,single-unit-8t,,62,1.2 m,3,,
+P5,41.0,-81.0,circular,36,,,8,25,2400,fixed,pinned,,single-unit-8t,8,70,1.2 m,3,,static
+"""
+BAD = """\
+P6,41,-81,circular,36,,,8,25,2400,fixed,pinnd,,single-unit-8t,8,70,1.2 m,3,,
+P7,41,-81,circular,x,,,8,25,2400,fixed,pinned,,single-unit-8t,8,70,1.2 m,3,,
+P8,41,-81,circular,36,,,8,25,2400,fixed,pinned,,nobody,8,70,1.2 m,3,,
+P9,91,-81,circular,36,,,8,25,2400,fixed,pinned,,single-unit-8t,8,70,1.2 m,3,,
+P10,41,-81,circular
+P11,41,-81,circular,36,,,1,25,2400,fixed,pinned,,single-unit-8t,8,70,1.2 m,3,,
+,41,-81,circular,36,,,1,25,2400,fixed,pinned,,single-unit-8t,8,70,1.2 m,3,,
+"""
+
+
+@pytest.fixture
+def table(tmp_path):
+    path = tmp_path / "piers.csv"
+    path.write_text(f"{HEADING}\n{ROWS}")
+    return read_pier_table(path)
+
+
+@pytest.fixture
+def here(monkeypatch):
+    """Let this process do the work, and say how many pieces it did."""
+    done = []
+
+    def run(function, tasks):
+        for task in tasks:
+            done.append(len(task.rows))
+            yield json.loads(json.dumps(function(task)))  # as if from afar
+
+    @contextmanager
+    def pool(**options):
+        yield run
+
+    monkeypatch.setattr(portfolio_module, "worker_pool", pool)
+    return done
+
+
+def task_of(table):
+    (rows,) = table.pieces(1000)
+    return Task(table.columns, rows, {name: load_truck(name) for name in table.trucks})
+
+
+def test_a_row_comes_to_what_a_report_of_it_does(table):
+    task = task_of(table)
+    found, beams = calculate_piece(task), calculate_beams(task)
+    assert not found.rejects
+    assert not beams.rejects
+    for i, row in enumerate(task.rows):
+        calculation = calculate(case_from({**table.pier(row).values, "member_forces": "larger"}))
+        own = {name: values[i] for name, values in found.numbers.items()}
+        assert own["design_reaction"] == pytest.approx(calculation.design_force, rel=1e-9)
+        assert found.words["governs"][i] == calculation.governs
+        assert own["pier_frequency"] == pytest.approx(calculation.pier.frequency, rel=1e-12)
+        assert own["impact_height"] == calculation.struck.impact_height
+        average = calculation.average_forces[AVERAGE]
+        assert own["average_25ms"] == pytest.approx(average.force, rel=1e-3)
+        assert own["code_ratio"] == pytest.approx(calculation.code_ratio, rel=1e-3)
+        for which, demand in calculation.demands.items():
+            assert own[f"static_{which}"] == pytest.approx(demand.static, rel=1e-9)
+            assert beams.forces[i][("shear", "moment").index(which) + 1] == demand.beam
+        holds = [
+            StaticForcesInCollision(
+                impact.struck.static_forces,
+                impact.reaction,
+                float(impact.history.contact_force.max()),
+            ).hold
+            for impact in calculation.impacts
+        ]
+        assert own["static_holds"] == all(holds)
+        if row.cells[0] != "P3":  # whose truck is outside the studied domain
+            low, _, high = calculation.band.quantiles()
+            assert [own["band_low"], own["band_high"]] == pytest.approx([low, high], rel=0.12)
+
+
+def test_demands_utilisations_and_ranks(table, tmp_path, here):
+    found = calculate_portfolio(table, tmp_path)
+    words, numbers = found.words, found.numbers
+    at = {name: i for i, name in enumerate(words["id"])}
+    # Those with a resistance first, the largest utilisation first; then by reaction.
+    rated = np.isfinite(numbers["utilisation"])
+    assert rated.tolist() == [True] * 4 + [False]
+    assert np.all(np.diff(numbers["utilisation"][rated]) <= 0.0)
+    assert numbers["rank"].tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
+    asked = calculate_portfolio(table, tmp_path / "asked", beams="asked")
+    again = {name: i for i, name in enumerate(asked.words["id"])}
+    for name, i in at.items():
+        j = again[name]
+        static, hold = numbers["static_shear"][i], words["static_forces"][i] == "hold"
+        if hold or name == "P5":  # which asks for the static reaction
+            assert words["shear_method"][i] == asked.words["shear_method"][j] == "static reaction"
+            assert numbers["largest_shear"][i] == static
+            assert math.isnan(numbers["beam_shear"][i])
+        else:
+            assert numbers["largest_shear"][i] == max(static, numbers["beam_shear"][i])
+            assert asked.words["shear_method"][j] == "static contact force"
+            assert asked.numbers["largest_shear"][j] >= static
+        if name != "P3":
+            resistance = {"P1": 2.5e6, "P,2": 9e6, "P4": 3e6, "P5": 3e6}[name]
+            shear = numbers["largest_shear"][i] / resistance
+            assert numbers["utilisation_shear"][i] == pytest.approx(shear)
+    moment = numbers["largest_moment"][at["P1"]] / 4e6
+    assert numbers["utilisation_moment"][at["P1"]] == pytest.approx(moment)
+    assert "hold" in words["static_forces"]
+    assert "may be too low" in words["static_forces"]
+
+
+def written(found, table, folder):
+    write_portfolio(found, table, folder)
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+
+
+def test_bad_rows_stop_nothing_and_say_why(tmp_path, here):
+    path = tmp_path / "piers.csv"
+    path.write_text(f"{HEADING}\n{ROWS}{BAD}")
+    table = read_pier_table(path)
+    found = calculate_portfolio(table, tmp_path, beams="asked")
+    files = written(found, table, tmp_path)
+    rejects = list(csv.reader(files["rejects.csv"].decode().splitlines()))
+    assert rejects[0] == ["row", "id", "column", "reason"]
+    assert [row[:3] for row in rejects[1:]] == [
+        ["7", "P6", "top"],
+        ["8", "P7", "column_diameter"],
+        ["9", "P8", "truck"],
+        ["10", "P9", "latitude"],
+        ["11", "P10", ""],
+        ["12", "P11", "impact_height"],
+        ["13", "", "id"],
+    ]
+    assert all(row[3] for row in rejects[1:])
+    results = list(csv.DictReader(files["results.csv"].decode().splitlines()))
+    assert {row["id"] for row in results} == {"P1", "P,2", "P3", "P4", "P5"}
+    assert list(results[0]) == [column.heading("SI") for column in RESULTS]
+    # The page asks nothing of any network, and runs no script but its own.
+    page = html.unescape(files["summary.html"].decode())
+    assert not re.search(r"(?:src|href)=[\"']?(?:https?:)?//", page)
+    ((script,), (style,)) = (
+        re.findall(rf"<{tag}>(.*?)</{tag}>", page, re.DOTALL) for tag in ("script", "style")
+    )
+    for content in (script, style):
+        digest = base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()
+        assert f"'sha256-{digest}'" in page
+    data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL)[1])
+    assert {len(column) for column in data["columns"]} == {5}
+    assert "7 of 12 rows have no results" in page
+
+
+def test_interrupted_it_goes_on_and_comes_to_the_same_bytes(table, tmp_path, here, monkeypatch):
+    pyarrow = pytest.importorskip("pyarrow.parquet")
+    monkeypatch.setattr(portfolio_module, "ROWS", 2)
+    whole = tmp_path / "whole"
+    expected = written(calculate_portfolio(table, whole, beams="asked"), table, whole)
+    assert here == [2, 2, 1]
+
+    def interrupt(unit, total):
+        def update(count):
+            raise KeyboardInterrupt
+
+        return update
+
+    folder = tmp_path / "interrupted"
+    with pytest.raises(KeyboardInterrupt):
+        calculate_portfolio(table, folder, beams="asked", progress=interrupt)
+    assert not (folder / "results.csv").exists()
+    here.clear()
+    assert written(calculate_portfolio(table, folder, beams="asked"), table, folder) == expected
+    assert here == [2, 1]
+    # Another table in the same folder is another matter.
+    table.path.write_text(table.path.read_text().replace(",80,", ",81,"))
+    here.clear()
+    changed = calculate_portfolio(read_pier_table(table.path), folder, beams="asked")
+    assert here == [2, 2, 1]
+    assert written(changed, table, folder)["results.csv"] != expected["results.csv"]
+    # The other format has the same rows, and comes to the same.
+    import pyarrow as pa
+
+    lines = list(csv.reader(table.path.read_text().splitlines()))
+    columns = dict(zip(lines[0], zip(*lines[1:], strict=True), strict=True))
+    other = tmp_path / "piers.parquet"
+    pyarrow.write_table(pa.table({name: list(cells) for name, cells in columns.items()}), other)
+    parquet = read_pier_table(other)
+    same = calculate_portfolio(parquet, tmp_path / "other", beams="asked")
+    assert np.array_equal(same.numbers["design_reaction"], changed.numbers["design_reaction"])
+    read_back = pyarrow.read_table(folder / "results.parquet")
+    assert read_back.column("design_reaction [kN]").to_pylist() == pytest.approx(
+        1e-3 * changed.numbers["design_reaction"]
+    )
+
+
+def test_on_a_cluster_of_which_a_worker_is_killed_it_comes_to_the_same_bytes(
+    table, tmp_path, here, monkeypatch
+):
+    monkeypatch.setattr(portfolio_module, "ROWS", 1)
+    alone = tmp_path / "alone"
+    expected = written(calculate_portfolio(table, alone, beams="asked"), table, alone)
+    monkeypatch.setattr(portfolio_module, "worker_pool", workers.worker_pool)
+    logs, folder = tmp_path / "logs", tmp_path / "cluster"
+    logs.mkdir()
+    with dask_cluster(logs, 2) as (address, processes):
+
+        def kill(unit, total):
+            return lambda count: processes[0].kill()
+
+        found = calculate_portfolio(table, folder, beams="asked", scheduler=address, progress=kill)
+    assert written(found, table, folder) == expected
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "error"),
+    [
+        ("speed [km/h]", "speed", r"speed has no unit in row 2: write it in the heading, as speed"),
+        ("speed [km/h]", "spede [km/h]", r"'spede \[km/h\]' is no column of piers; did you mean s"),
+        ("speed [km/h]", "speed [kg]", r"speed must be a speed .*which is a mass"),
+        ("speed [km/h]", "top", "the column top is there twice"),
+        ("truck,", "element,", "the column truck is missing"),
+        ("latitude,", "element,", "latitude and longitude belong together"),
+        ("P4", "P1", "id 'P1' is given twice, in rows 2 and 5"),
+        ("P1", '"P1', "not valid CSV|quotation mark"),
+        (HEADING, "", "is no column of piers|must have a heading"),
+        (ROWS, "", "must have a row for each pier, got none"),
+        ("base,", "base [m],", "base has no unit"),
+    ],
+)
+def test_a_bad_table_is_one_line_and_writes_nothing(tmp_path, capsys, old, new, error):
+    path, output = tmp_path / "piers.csv", tmp_path / "out"
+    path.write_text(f"{HEADING}\n{ROWS}".replace(old, new, 1))
+    assert main(["portfolio", str(path), "--output", str(output)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert re.search(error, line)
+    assert str(path) in line
+    assert not output.exists()
+
+
+def test_a_scheduler_that_does_not_answer_leaves_nothing(table, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(workers, "PATIENCE", 0.3)
+    output = tmp_path / "out"
+    options = ["--output", str(output), "--scheduler", "tcp://127.0.0.1:1"]
+    assert main(["portfolio", str(table.path), *options]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "scheduler tcp://127.0.0.1:1 does not answer" in line
+    assert not output.exists()
+
+
+@given(st.floats(1e-12, 1e15), st.sampled_from([-1.0, 1.0]))
+def test_figures_are_those_that_python_prints(size, sign):
+    assert figures(np.array([sign * size]))[0] == pytest.approx(
+        float(f"{sign * size:.3e}"), rel=1e-15
+    )
+
+
+def test_figures_of_nothing_are_nothing():
+    assert np.isnan(figures(np.array([math.nan]))[0])
+    assert figures(np.array([0.0]))[0] == 0.0
+
+
+def test_units_may_stand_in_the_cells(table, tmp_path):
+    sizes = {"column_diameter [in]": "in", "speed [km/h]": "km/h", "truck_mass [t]": "t"}
+    rows = list(csv.DictReader(table.path.read_text().splitlines()))
+    other = tmp_path / "cells.csv"
+    with other.open("w", newline="") as file:
+        names = [name.partition(" ")[0] if name in sizes else name for name in rows[0]]
+        writer = csv.writer(file, delimiter=";")
+        writer.writerow(names)
+        for row in rows:
+            writer.writerow(
+                f"{cell} {sizes[name]}" if name in sizes and cell else cell
+                for name, cell in row.items()
+            )
+    in_cells = read_pier_table(other)
+    for one, another in zip(next(table.pieces(9)), next(in_cells.pieces(9)), strict=True):
+        assert table.pier(one) == in_cells.pier(another) or math.isnan(table.pier(one).place[0])
+        assert table.pier(one).values == in_cells.pier(another).values
