@@ -193,7 +193,9 @@ def reaction_band(
     a, b = _factors(spreads, max(size, base), seed)
     other, own = b[:, :base], a[:, :base]
     parts = (np.ones((count, 1)), _ends(spreads), a[:, :size], other, _each_alone(other, own))
-    collisions = _collisions(collision.parameters, spreads, np.concatenate(parts, axis=1))
+    factors = np.concatenate(parts, axis=1)
+    same = repeat(collision.parameters, factors.shape[1])
+    collisions = with_factors(same, spreads, factors)
     reactions = full_model(collisions)
     starts = np.cumsum([part.shape[1] for part in parts])
     nominal, ends, drawn, others, mixed = np.split(reactions.governing, starts[:-1])
@@ -233,7 +235,9 @@ def one_at_a_time(collision: Collision, spreads: Mapping[str, Spread]) -> Reacti
     Reactions
         Arrays of shape (n, 2), the lower end first.
     """
-    reactions = full_model(_collisions(collision.parameters, spreads, _ends(spreads)))
+    ends = _ends(spreads)
+    same = repeat(collision.parameters, ends.shape[1])
+    reactions = full_model(with_factors(same, spreads, ends))
     return Reactions(*(values.reshape(-1, 2) for values in reactions))
 
 
@@ -301,9 +305,19 @@ def _each_alone(changed: Array, usual: Array) -> Array:
     return np.where(alone, changed[:, None], usual[:, None]).reshape(count, count * size)
 
 
-def _collisions(nominal: Parameters, spreads: Iterable[str], factors: Array) -> Parameters:
-    """Return collisions with each of the parameters times its factor, shape (parameters, n)."""
-    same, by_name = repeat(nominal, factors.shape[1]), dict(zip(spreads, factors, strict=True))
+def with_factors(same: Parameters, names: Iterable[str], factors: Array) -> Parameters:
+    """Return collisions with each of the named parameters times its factor.
+
+    Parameters
+    ----------
+    same : Parameters
+        The n collisions.
+    names : iterable of str
+        Parameters of the truck, or "speed".
+    factors : ndarray, shape (parameters, n)
+        Their factors [-].
+    """
+    by_name = dict(zip(names, factors, strict=True))
 
     def spring(mass: str, law: str, own: Spring) -> Spring:
         names = (mass, *(f"{law}.{name}" for name in CrushSpring.__dataclass_fields__))
