@@ -14,6 +14,7 @@ from pierimpact.checks import InputError, brief
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.files.inputs import Inputs, SectionInputs, read_inputs
 from pierimpact.files.office import Logo, read_logo, read_shared_file
+from pierimpact.files.traffic import CaseTraffic, traffic_of
 from pierimpact.files.trucks import TruckFile, read_truck_file
 from pierimpact.pier.column import PierColumn, Step
 from pierimpact.pier.sections import (
@@ -57,6 +58,7 @@ class Case:
     column: PierColumn
     truck: Truck  #: with the mass of the case
     truck_file: TruckFile  #: with the source and status of each parameter
+    traffic: CaseTraffic | None = None
     logo: Logo | None = None
     #: SHA-256 of the `pierimpact.toml` that gave some of the values; None where there is none.
     shared_sha256: str | None = None
@@ -187,6 +189,7 @@ def _case(
         column=_column(inputs),
         truck=_with_mass(truck_file.truck, inputs.truck_mass),
         truck_file=truck_file,
+        traffic=traffic_of(inputs, truck_file, folder),
         logo=None if inputs.logo is None else read_logo(inputs.logo, folder),
         shared_sha256=shared_sha256,
         superseded_file=_superseded(inputs.supersedes, folder, file_name) if follow else None,

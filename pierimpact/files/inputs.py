@@ -39,6 +39,18 @@ def _positive(name: str, value: Any) -> float:
     return result
 
 
+def _not_negative(name: str, value: Any) -> float:
+    if (result := _parsed(name, value)) < 0.0:
+        raise InputError(f"{name} must not be negative, got {brief(value)}")
+    return result
+
+
+def _share(name: str, value: Any) -> float:
+    if not 0.0 < (result := _plain_number(name, value)) <= 1.0:
+        raise InputError(f"{name} must lie above 0 to 1, got {result:g}")
+    return result
+
+
 def _plain_number(name: str, value: Any) -> float:
     if isinstance(value, bool | str):
         raise InputError(f"{name} must be a plain number without unit, got {brief(value)}")
@@ -243,6 +255,19 @@ class Inputs(SharedInputs, SectionInputs):
     shear_resistance: Positive | None = None
     moment_resistance: Positive | None = None
     member_forces: Literal["larger", "beam", "static"] = "larger"
+    traffic_volume: Positive | None = None
+    truck_share: Annotated[
+        float | None, _named(_share, Annotated[float, Field(gt=0.0, le=1.0)])
+    ] = None
+    distance_from_road: Annotated[float | None, _named(_not_negative, str)] = None
+    exposed_width: Positive | None = None
+    encroachment_rate: Positive | None = None
+    traffic_mass: Text | None = None
+    traffic_speed: Text | None = None
+    traffic_deceleration: Text | None = None
+    traffic_angle: Text | None = None
+    weigh_in_motion: Text | None = None
+    traffic_trucks: Annotated[tuple[str, ...], _named(_texts, list[str])] = ()
     assumed: Annotated[dict[str, str], _named(_texts_by_key, dict[str, str])] = {}
     sources: Annotated[dict[str, str], _named(_texts_by_key, dict[str, str])] = {}
     notes: Annotated[tuple[str, ...], _named(_texts, list[str])] = ()

@@ -30,8 +30,8 @@ class Distribution:
         Frozen continuous distribution of `scipy.stats`, in SI units.
     words : str
         How it prints.
-    status : Certainty
-        How certain it is.
+    status : Certainty or None
+        How certain it is; None where a user gives it.
     low, high : float, optional
         Where it is truncated; infinite where it is not [SI].
     bounds : tuple of float, optional
@@ -45,7 +45,7 @@ class Distribution:
 
     law: Any
     words: str
-    status: Certainty
+    status: Certainty | None
     low: float = -math.inf
     high: float = math.inf
     bounds: tuple[float, float] = (0.0, math.inf)
@@ -80,7 +80,7 @@ class Distribution:
     def exceeded_by(self, share: Array) -> Array:
         """Return the values that these shares of all lie above, same shape [SI]."""
         values = np.asarray(self.law.isf(self._above + share * self._share), dtype=float)
-        return np.clip(values, self.low, self.high)
+        return np.asarray(np.clip(values, self.low, self.high))
 
     def share_above(self, value: Array) -> Array:
         """Return the shares of all that lie above these values, same shape [-]."""

@@ -1,10 +1,10 @@
 """How often a value is exceeded, with a confidence band, from draws that count with a weight.
 
-With weights w_i the frequency is ν Σ w_i / n over the draws that exceed. Its band is that of a gamma
-distribution of the same mean and variance, whose upper end counts one more draw, of the largest
-weight. Without weights, and for rare values, that is the exact band of a Poisson count; it is the
-band of M. P. Fay and E. J. Feuer, Statistics in Medicine 16 (1997), from memory, with the variance
-of a mean of n draws in place of that of a Poisson count.
+With weights w_i the frequency is ν Σ w_i / n over the draws that exceed. Its band is that of a
+gamma distribution of the same mean and variance, whose upper end counts one more draw, of the
+largest weight. Without weights, and for rare values, that is the exact band of a Poisson count; it
+is the band of M. P. Fay and E. J. Feuer, Statistics in Medicine 16 (1997), from memory, with the
+variance of a mean of n draws in place of that of a Poisson count.
 """
 
 import math

@@ -3,11 +3,11 @@
 They are drawn in blocks, each with random numbers of its own, so that a block is the same whoever
 draws it; and they do not depend on the pier, so that all piers beside a road meet the same trucks.
 
-Of the angle only the part is drawn at which the truck arrives, and the truck counts with the chance
-of that. In part of the draws, the shares of all trucks that are heavier, that are faster, that brake
-less and that come more directly are raised to powers, so that what is rare is met more often. A
-truck counts with the ratio of the densities, which the other part of the draws bounds. This is
-importance sampling from a mixture; the powers are this project's choice, numerical.
+Of the angle only the part is drawn at which the truck arrives, and the truck counts with the
+chance of that. In part of the draws, the shares of all trucks that are heavier, that are faster,
+that brake less and that come more directly are raised to powers, so that what is rare is met more
+often. A truck counts with the ratio of the densities, which the other part of the draws bounds.
+This is importance sampling from a mixture; the powers are this project's choice, numerical.
 """
 
 from collections.abc import Sequence
@@ -107,7 +107,7 @@ def nearest(mass: Array, trucks: Sequence[Truck]) -> NDArray[np.int_]:
         for truck in trucks
         for low, high in [truck.mass_range or (truck.mass, truck.mass)]
     ]
-    return np.argmin(gaps, axis=0)
+    return np.asarray(np.argmin(gaps, axis=0))
 
 
 def _factors(trucks: Sequence[Truck], which: NDArray[np.int_], fraction: Array) -> Array:

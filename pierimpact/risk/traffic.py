@@ -120,7 +120,7 @@ class WeighedTrucks:
     def place(self, share: Array) -> NDArray[np.int_]:
         """Return which trucks these shares of all are heavier than, same shape."""
         places = (share * len(self.mass)).astype(int)
-        return np.minimum(places, len(self.mass) - 1)
+        return np.asarray(np.minimum(places, len(self.mass) - 1))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -212,5 +212,3 @@ def jcss_traffic(trucks: float, distance: float, **others: object) -> Traffic:
         "angle": jcss_angle(),
     }
     return Traffic(trucks=trucks, distance=distance, **{**laws, **others})  # type: ignore[arg-type]
-
-
