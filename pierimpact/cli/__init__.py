@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pierimpact
 from pierimpact.checks import InputError
-from pierimpact.cli import cases, files, fit, teach
+from pierimpact.cli import cases, files, fit, risk, teach
 from pierimpact.cli.terminal import complain
 
 
@@ -41,6 +41,7 @@ def parser() -> argparse.ArgumentParser:
     cases.add_check(commands)
     cases.add_report(commands)
     cases.add_compare(commands)
+    risk.add_risk(commands)
     files.add_trucks(commands)
     files.add_schema(commands)
     fit.add_fit(commands)

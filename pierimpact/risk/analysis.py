@@ -20,7 +20,7 @@ from pierimpact.vehicle.truck import Truck
 Array: TypeAlias = NDArray[np.float64]
 
 #: Trucks drawn unless another number is asked for: this project's choice.
-SIZE = 8 * BLOCK
+SIZE = 4 * BLOCK
 
 
 class Strikes(NamedTuple):
