@@ -177,7 +177,8 @@ export function simulate(truck, pier, speed, { duration = 0, record = null, star
   function longestStep() {
     const fastest = Math.max(engine.slope / m1, body.slope / m2) + (cp / mp) ** 2
       + (kp + engine.slope + body.slope) / mp;
-    return Math.min(PHASE / Math.sqrt(fastest), LONGEST);
+    const turn = record ? 0.5 * PHASE : PHASE; // what is drawn has straight lines between its steps
+    return Math.min(turn / Math.sqrt(fastest), LONGEST);
   }
 
   function holding(state) {

@@ -71,7 +71,8 @@ export function bandsOf(points, collision) {
   for (let n = 1; n < points.length; n++) {
     const what = governs(points[n]), last = bands.at(-1);
     if (what === last.what) continue;
-    const crossing = points[n - 1].cargo !== null && points[n].cargo !== null;
+    const both = points[n - 1].cargo !== null && points[n].cargo !== null;
+    const crossing = both && (what === "cargo" || last.what === "cargo");
     last.high = crossing
       ? crossingOf(points[n - 1], points[n], collision)
       : points[n].frequency;
