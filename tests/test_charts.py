@@ -1,23 +1,25 @@
-"""The charts that Python calculates for explorers are of the values that they were given."""
+"""The charts that the browser calculates for explorers are of the package's values."""
 
-import json
 import math
+import re
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from in_node import contents_of, in_node
 
-from pierimpact.plots.style import BODIES, round_out, round_up
-from pierimpact.teaching import charts, explorer_data
+from pierimpact import design_reaction, widgets
+from pierimpact.design import domain
+from pierimpact.design.band import one_at_a_time
+from pierimpact.design.codes import code_forces
+from pierimpact.design.procedure import LEVELS, amplification, by_symbol, design_values
+from pierimpact.design.reduction import exact_amplification
+from pierimpact.pier.unit_force import BY_ENDS
 from pierimpact.teaching.scenario import EXAMPLE, Scenario
+from pierimpact.teaching.variables import VARIABLES
+from pierimpact.vehicle.spread import Uniform
 
-USUAL = Scenario()
-NAMES = [parameter.meaning for parameter in explorer_data.PARAMETERS]
-
-
-def at_speed(speed):
-    return Scenario(speed=speed / 3.6)
+CHARTS = ("pier", "reduction", "design", "sensitivity")
+KMH = 1.0 / 3.6
 
 
 def drawn(curve):
@@ -25,125 +27,196 @@ def drawn(curve):
 
 
 def inside(values, axis):
-    return axis["low"] <= min(values) and max(values) <= axis["high"]
+    return axis["low"] - 1e-9 <= min(values) and max(values) <= axis["high"]
 
 
-@pytest.mark.parametrize("top", ["fixed", "pinned", "free"])
-def test_the_shape_passes_through_one_at_the_impact(top):
-    scenario = Scenario(top=top, column_height=5.3)
-    shape, stiffness, mass = charts.pier(scenario)
+def anywhere(explorer, count, seed):
+    """Return random values on the sliders of an explorer."""
+    random = np.random.default_rng(seed)
+
+    def one(name):
+        variable = VARIABLES[name]
+        if variable.choices:
+            return str(random.choice(variable.choices))
+        return float(random.uniform(variable.low, variable.high) * variable.size)
+
+    return [{name: one(name) for name in explorer.controls} for _ in range(count)]
+
+
+@pytest.mark.parametrize("name", CHARTS)
+def test_no_values_of_the_sliders_are_too_much(name):
+    explorer = getattr(widgets, name)()
+    found = contents_of(explorer, *anywhere(explorer, 40, 3))  # all of it finite
+    assert all(each.get("refusal") or (each["charts"] and each["words"]) for each in found)
+    assert sum("charts" in each for each in found) > 10
+    for each in found:
+        for chart in each.get("charts", ()):
+            if here := chart.get("here"):
+                assert inside([here["x"]], chart["x"])
+                assert inside([here["y"]], chart["y"])
+
+
+def test_a_mechanism_is_refused_in_a_sentence():
+    (found,) = contents_of(widgets.pier(), {"base": "pinned", "top": "free"})
+    assert "mechanism" in found["refusal"]
+
+
+@pytest.mark.parametrize(("base", "top"), BY_ENDS)
+def test_shape_stiffness_and_mass_are_the_columns(base, top):
+    values = {"base": base, "top": top, "column_height": 5.3, "impact_height": 1.31}
+    (found,) = contents_of(widgets.pier(), values)
+    scenario = Scenario(**values)
+    struck, (shape, *others) = scenario.struck_column, found["charts"]
     square, _, line = shape["curves"]
     phi, z = drawn(line)
-    assert np.interp(1.2, z, phi) == pytest.approx(1.0, abs=1e-4)
-    np.testing.assert_allclose(drawn(square)[0], phi**2, rtol=1e-3, atol=1e-4)
-    assert inside(phi, shape["x"])
-    assert inside(phi**2, shape["x"])
-    assert shape["y"]["high"] == 6.0
-    assert shape["level"]["y"] == 1.2
-    assert stiffness["here"]["y"] == pytest.approx(scenario.pier.stiffness / 1e6)
-    assert mass["here"]["y"] == pytest.approx(scenario.pier.mass / 1e3)
-    for chart in (stiffness, mass):
-        x, y = drawn(chart["curves"][0])
-        here = chart["here"]
-        assert np.interp(here["x"], x, y) == pytest.approx(here["y"], rel=0.05)
+    np.testing.assert_allclose(phi, struck.shape(z), atol=1e-9)
+    np.testing.assert_allclose(drawn(square)[0], phi**2, atol=1e-12)
+    assert inside([*phi, *phi**2], shape["x"])
+    assert shape["level"]["y"] == 1.31
+    for chart, name, size in zip(others, ("stiffness", "mass"), (1e6, 1e3), strict=True):
+        heights, along = drawn(chart["curves"][0])
+        for height, value in zip(heights[::9], along[::9], strict=True):
+            other = scenario.column.struck_at(float(height))
+            assert value == pytest.approx(getattr(other, name) / size, rel=1e-6)
+        assert chart["here"]["y"] == pytest.approx(getattr(struck, name) / size)
+    whole = scenario.column.mass_per_length * 5.3
+    shear = struck.values["xs"] / struck.values["xn"]
+    assert f"as if {100.0 * struck.mass / whole:.0f} %" in found["words"]
+    assert f"Shear accounts for {100.0 * shear:.0f} %" in found["words"]
 
 
-def test_stiffness_and_mass_along_a_column_are_those_of_the_impact():
-    along = explorer_data.by_height(USUAL.column)
-    for place in (3, 20, 44):
-        struck = USUAL.column.struck_at(float(along.height[place]))
-        assert along.stiffness[place] == struck.stiffness
-        assert along.mass[place] == struck.mass
+def test_the_exact_amplification_is_the_packages():
+    random = np.random.default_rng(8)
+    beta, mu = np.exp(random.uniform(np.log([0.02, 0.01]), np.log([60.0, 5.0]), (250, 2))).T
+    e, zeta = random.uniform((0.1, 0.0), (1.0, 0.3), (250, 2)).T
+    cases = np.transpose((beta, mu, e, zeta))
+    found = in_node("cases.map((each) => exactAmplification(...each))", cases.tolist())
+    np.testing.assert_allclose(found, exact_amplification(beta, mu, e, zeta), rtol=1e-5)
 
 
-def test_the_limits_of_the_amplification_are_met():
-    for curves in explorer_data.amplifications((0.09, 0.9), (0.4, 0.5), 0.02).values():
-        soft, stiff = curves.ratio < 0.05, curves.ratio > 40.0
-        assert curves.exact[soft] == pytest.approx(curves.impulse[soft], rel=0.05)
-        assert curves.exact[stiff] == pytest.approx(curves.static[stiff], rel=0.05)
+def test_its_line_is_right_between_its_points_and_its_limits_are_met():
+    explorer = widgets.reduction()
+    cases = anywhere(explorer, 12, 5)
+    for values, found in zip(cases, contents_of(explorer, *cases), strict=True):
+        scenario = Scenario(**values)
+        given = design_values(scenario.collision.parameters, "short")
+        for number, (chart, row) in enumerate(
+            zip(found["charts"], found["table"]["rows"], strict=True), 1
+        ):
+            mu, e = given[f"mu{number}"], given[f"e{number}"]
+            impulse, static, closed, exact = map(drawn, chart["curves"])
+            ratio = np.geomspace(0.0201, 49.9, 400)
+            line = np.interp(np.log(ratio), np.log(exact[0]), exact[1])
+            model = exact_amplification(ratio, mu, e, scenario.damping_ratio)
+            np.testing.assert_allclose(line, model, rtol=5e-3)
+            of_body = (closed[0], mu, e, scenario.damping_ratio)
+            np.testing.assert_allclose(closed[1], amplification(*of_body), rtol=1e-9)
+            np.testing.assert_allclose(impulse[1], (1.0 + e) * impulse[0] / (1.0 + mu))
+            np.testing.assert_allclose(static[1], 1.0 / np.sqrt(1.0 + mu / static[0] ** 2))
+            beta = given[f"beta{number}"]
+            assert chart["here"]["x"] == pytest.approx(beta)
+            here = exact_amplification(beta, mu, e, scenario.damping_ratio)
+            assert chart["here"]["y"] == pytest.approx(float(here), rel=1e-5)
+            assert row[2:6] == [f"{value:.3f}" for value in (beta, mu, e, chart["here"]["y"])]
 
 
-@pytest.mark.parametrize("frequency", [0.5, 30.0, 900.0])
-def test_a_pier_stands_on_the_exact_amplification(frequency):
-    scenario = Scenario(pier_mass=8e3, pier_frequency=frequency)
-    values = explorer_data.short_procedure(scenario)
-    for chart, i in zip(charts.amplification(scenario, values), (1, 2), strict=True):
-        x, y = drawn(chart["curves"][-1])
-        here = chart["here"]
-        assert here["x"] == values[f"beta{i}"]
-        assert inside([here["x"]], chart["x"])
-        assert inside([here["y"]], chart["y"])
-        if x[0] < here["x"] < x[-1]:
-            line = np.interp(math.log(here["x"]), np.log(x), y)
-            assert line == pytest.approx(here["y"], rel=0.015)
+def test_the_table_has_the_reduction_beside_the_full_model():
+    (found,) = contents_of(widgets.reduction(), {})
+    parameters = EXAMPLE.collision.parameters
+    values = design_values(
+        parameters, "short", lambda b, m, e, z: float(exact_amplification(b, m, e, z))
+    )
+    for number, (row, peak) in enumerate(
+        zip(found["table"]["rows"], EXAMPLE.history.peaks.values(), strict=True), 1
+    ):
+        assert row[1] == f"{values[f'v{number}']:.2f} m/s"
+        assert row[6:] == [f"{values[f'R{number}'] / 1e6:.2f} MN", f"{peak.reaction / 1e6:.2f} MN"]
+        assert (
+            f"{values[f'R{number}'] / peak.reaction:.2f} times the full model’s" in found["words"]
+        )
 
 
-def test_a_body_that_does_not_arrive_has_no_place():
-    scenario = Scenario(pier_mass=8e3, pier_frequency=30.0, speed=45.0 / 3.6)
-    found = charts.amplification(scenario, explorer_data.short_procedure(scenario))
-    assert json.loads(json.dumps(found, allow_nan=False)) == found
+@pytest.mark.parametrize("level", LEVELS)
+def test_the_procedure_in_the_browser_is_the_packages(level):
+    parameters = domain.sample(300, 4)
+    given = {name: np.asarray(value) for name, value in by_symbol(parameters).items()}
+    cases = [{name: value[number].item() for name, value in given.items()} for number in range(300)]
+    program = (
+        f"cases.map(procedureModule.{level})"
+        ".map(({ R1, R2, v1, v2 }) => [R1, R2 >= 0 ? R2 : null, v1, v2])"
+    )
+    found = np.array(in_node(program, cases), dtype=float)
+    values = design_values(parameters, level)
+    expected = np.transpose([values[name] for name in ("R1", "R2", "v1", "v2")])
+    assert np.isnan(expected).any()
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-6)
 
 
 def test_bars_are_as_long_as_their_forces():
-    scenario = at_speed(45.0)  # where the cargo makes no peak
-    (chart,) = charts.reactions(scenario)
-    for row, bar in zip(chart["rows"], explorer_data.bars(scenario), strict=True):
-        assert row["name"] == bar.name
-        assert row["words"].endswith(bar.remark)
-        ((value,),) = [[each["value"] for each in row["bars"]]]
-        if bar.value is None:
-            assert value is None
-            assert row["words"].startswith("none")
-        else:
-            assert value == pytest.approx(bar.value / 1e6)
-            assert row["words"].startswith(f"{value:.2f} MN")
-            assert value <= chart["x"]["high"]
+    explorer, cases = widgets.design(), [{}, {"speed": 45.0 * KMH}, {"speed": 126.0 * KMH}]
+    cases += anywhere(explorer, 30, 6)
+    warned = 0
+    for values, found in zip(cases, contents_of(explorer, *cases), strict=True):
+        if "refusal" in found:
+            continue
+        scenario = Scenario(**values)
+        (chart,) = found["charts"]
+        rows = iter(chart["rows"])
+        peaks = scenario.history.peaks.values()
+        reactions = [
+            design_reaction(scenario.truck, scenario.pier, scenario.speed, level)
+            for level in LEVELS
+        ]
+        forces = [None if peak is None else peak.reaction for peak in peaks]
+        forces += [each.reaction for each in reactions]
+        codes = code_forces(scenario.speed, scenario.truck.mass)
+        for force in [*forces, *(code.along.value for code in codes)]:
+            row = next(rows)
+            ((bar,),) = [row["bars"]]
+            if force is None:
+                assert (bar["value"], row["words"]) == (None, "none")
+            else:
+                assert bar["value"] == pytest.approx(force / 1e6, rel=1e-5)
+                assert row["words"].startswith(f"{bar['value']:.2f} MN")
+                assert bar["value"] <= chart["x"]["high"]
+        names = [row["name"] for row in chart["rows"][4:]]
+        assert names == [code.code for code in codes]
+        remarks = [row["words"].partition(": ")[2] for row in chart["rows"][4:]]
+        assert remarks == [code.along.remark for code in codes]
+        long = reactions[-1]
+        assert f"The {long.governs} governs." in found["words"]
+        ratio = long.reaction / scenario.history.governing_peak.reaction
+        assert f"{ratio:.2f} times the full model" in found["words"]
+        warnings = [f"{words}." for words in long.warnings]
+        assert [plain(words) for words in found["warnings"]] == [plain(words) for words in warnings]
+        warned += bool(long.warnings)
+    assert warned
 
 
-@pytest.mark.parametrize("speed", [45.0, 62.0, 80.0])
-def test_influences_to_either_side(speed):
-    changes = explorer_data.influences(at_speed(speed))
-    for chart, body in zip(charts.influences(changes), BODIES, strict=True):
-        change = changes[body]
-        assert bool(chart["empty"]) == (change is None)
-        for number, row in enumerate(chart["rows"]):
-            for side, each in enumerate(row["bars"]):
-                if change is None or np.isnan(change[number, side]):
-                    assert each["value"] is None
-                else:
-                    assert each["value"] == pytest.approx(100.0 * change[number, side])
-                    assert inside([each["value"]], chart["x"])
-    json.dumps(charts.influences(changes), allow_nan=False)
+def plain(words):
+    """Return a warning without the ways of writing its first letter and its number."""
+    return re.sub(r"[\d.e+]+(?= \S+ is outside)", lambda n: f"{float(n[0]):.6g}", words.lower())
 
 
-def test_influences_are_those_of_another_simulation():
-    changes = explorer_data.influences(USUAL)
-    # The explorer's truck keeps its total mass, the influence its body's.
-    heavier = Scenario(
-        engine_mass=1.3 * USUAL.engine_mass, truck_mass=USUAL.truck_mass + 0.3 * USUAL.engine_mass
-    )
-    row = NAMES.index("engine mass")
-    ratio = heavier.history.engine_peak.reaction / USUAL.history.engine_peak.reaction
-    assert changes["engine"][row, 1] == pytest.approx(ratio - 1.0, rel=1e-6)
-
-
-def test_every_chart_has_the_example_in_sight():
-    values = explorer_data.short_procedure(EXAMPLE)
-    assert all(chart["here"] for chart in charts.amplification(EXAMPLE, values))
-
-
-@given(value=st.floats(1e-6, 1e9))
-def test_an_axis_ends_at_a_round_number_not_far_above(value):
-    end = round_up(value)
-    assert 0.999 * value <= end <= 1.34 * value
-    assert round_up(end) == pytest.approx(end)
-
-
-@given(value=st.floats(1e-3, 1e5))
-def test_a_logarithmic_axis_holds_what_lies_beyond(value):
-    low, high = round_out(2.0, 200.0, value)
-    assert low < value < high
-    assert low <= 2.0
-    assert high >= 200.0
-    if 2.2 < value < 180.0:
-        assert (low, high) == (2.0, 200.0)
+@pytest.mark.parametrize("speed", [45.0, 60.0, 80.0, 117.0])
+def test_influences_are_the_packages(speed):
+    (found,) = contents_of(widgets.sensitivity(), {"speed": speed * KMH})
+    scenario = Scenario(speed=speed * KMH)
+    springs = ("plateau_force", "plateau_length", "stiffness", "unloading_stiffness")
+    names = [f"{body}_spring.{name}" for body in ("engine", "body") for name in springs]
+    names += ["engine_mass", "body_mass", "friction_force"]
+    changed = one_at_a_time(scenario.collision, dict.fromkeys(names, Uniform.about(0.3)))
+    for chart, (body, peak) in zip(found["charts"], scenario.history.peaks.items(), strict=True):
+        assert bool(chart["empty"]) == (peak is None)
+        if peak is None:
+            assert f"The {body} does not reach the pier" in found["words"]
+            continue
+        expected = 100.0 * (getattr(changed, body) / peak.reaction - 1.0)
+        bars = [[bar["value"] for bar in row["bars"]] for row in chart["rows"]]
+        np.testing.assert_allclose(np.array(bars, dtype=float), expected, atol=2e-3)
+        most = np.nan_to_num(np.abs(expected), nan=math.inf).max(axis=1)
+        name = chart["rows"][int(most.argmax())]["name"].split(": ")[-1]
+        assert name in found["words"]
+        assert inside(expected[np.isfinite(expected)], chart["x"])
+        for row, pair in zip(chart["rows"], expected, strict=True):
+            assert row["words"] == ("no peak" if np.isnan(pair).any() else "")

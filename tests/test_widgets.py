@@ -1,53 +1,34 @@
-"""The explorers: their values, what Python calculates for them, their stills."""
+"""The explorers: their values, their stills, and the files that they write."""
 
 import html
 import json
 import re
 
-import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from pierimpact import design_reaction, widgets
+from pierimpact import widgets
 from pierimpact.files.case import read_case_file
 from pierimpact.files.trucks import read_truck_file
 from pierimpact.teaching.browser import variable_data
-from pierimpact.teaching.readouts import outcome
 from pierimpact.teaching.scenario import REFERENCE, Scenario
 from pierimpact.teaching.scenario_files import case_text, truck_text
 from pierimpact.teaching.variables import CRUSH, VARIABLES
 from pierimpact.units import parse
 
 EXPLORERS = ("collision", "pier", "reduction", "spectra", "design", "sensitivity", "full")
-CALCULATED = ("pier", "reduction", "design", "sensitivity")
 
 
-@pytest.mark.parametrize("name", CALCULATED)
-def test_what_python_calculates_follows_the_values_and_goes_back(name):
+@pytest.mark.parametrize("name", EXPLORERS)
+def test_the_values_that_the_browser_sends_are_the_scenarios(name):
     explorer = getattr(widgets, name)()
-    before = explorer.widget.contents
-    assert before["charts"]
-    assert before["refusal"] == ""
-    first = explorer.controls[0]
-    explorer.set(**{first: 0.9 * getattr(explorer.defaults, first)})
-    after = explorer.widget.contents
-    assert after["charts"] != before["charts"]
-    assert after["words"] != before["words"]
-    explorer.reset()
-    assert explorer.widget.contents == before
-
-
-@pytest.mark.parametrize("name", CALCULATED)
-def test_what_the_browser_sends_is_answered_once(name):
-    explorer = getattr(widgets, name)()
-    answers = []
-    explorer.widget.observe(lambda change: answers.append(change["new"]), "contents")
-    controls = explorer.controls[:2]
-    values = {name: 0.93 * getattr(explorer.defaults, name) for name in controls}
+    before = explorer.scenario()
+    controls = [each for each in explorer.controls if not VARIABLES[each].choices][:2]
+    values = {each: 0.93 * (getattr(before, each) or 30.0) for each in controls}
     explorer.widget.set_state({"values": {**explorer.widget.values, **values}})
-    assert [explorer.widget.contents] == answers
-    assert getattr(explorer.scenario(), controls[1]) == values[controls[1]]
+    for each in controls:
+        assert getattr(explorer.scenario(), each) == values[each]
+    explorer.reset()
+    assert explorer.scenario() == before
 
 
 @pytest.mark.parametrize("name", EXPLORERS)
@@ -73,74 +54,6 @@ def test_a_unit_that_may_be_typed_is_the_packages(name):
             )
     assert data["units"][data["unit"]] == data["size"]
     assert data["spoken"] or not data["unit"]
-
-
-def numbers_of(explorer):
-    """Return the named numbers of an explorer and what it says of them."""
-    text = explorer.widget.contents["readout"]
-    cells = re.findall(r'title="([^"]*)".*?font-weight:600[^>]*>([^<]*)<', text)
-    return dict(cells), html.unescape(re.sub("<[^>]+>", " ", text))
-
-
-def test_the_readout_of_the_pier():
-    explorer = widgets.pier()
-    scenario = explorer.scenario()
-    cells, words = numbers_of(explorer)
-    mass = 2400.0 * 0.25 * np.pi * 0.914**2 * 5.0
-    assert cells["mass per length times height"] == f"{mass / 1e3:.4g} t"
-    pier = scenario.pier
-    shares = [int(text) for text in re.findall(r"(\d+)%", words)]
-    rigidity = 25e9 / 2.4 * 0.9 * 0.25 * np.pi * 0.914**2  # κGA
-    forces = scenario.column.member_forces(1.0, 1.2)
-    shear = (1.2 * forces.base_force**2 + 3.8 * forces.top_force**2) / rigidity
-    assert shares == [round(100.0 * pier.mass / mass), round(100.0 * shear * pier.stiffness)]
-
-
-def test_the_design_over_the_full_model_in_words():
-    explorer = widgets.design()
-    strike = explorer.scenario()
-    design = design_reaction(strike.truck, strike.pier, strike.speed, "long")
-    ratio = design.reaction / strike.history.governing_peak.reaction
-    _, words = numbers_of(explorer)
-    assert f"{ratio:.2f} times the full model" in words
-    assert f"The {design.governs} governs." in words
-    assert f"{design.reaction / 1e6:.2f} MN" in words
-
-
-def test_no_contact_is_said_in_a_sentence():
-    assert outcome(Scenario(speed=20.0 / 3.6)).startswith("Neither engine nor cargo")
-
-
-def test_a_mechanism_is_refused_in_a_sentence_and_taken_back():
-    explorer = widgets.pier()
-    explorer.set(base="pinned", top="free")
-    assert "mechanism" in explorer.widget.contents["refusal"]
-    explorer.reset()
-    assert explorer.widget.contents["refusal"] == ""
-
-
-def anywhere_on_its_slider(name):
-    variable = VARIABLES[name]
-    if variable.choices:
-        return st.sampled_from(variable.choices)
-    return st.floats(variable.low * variable.size, variable.high * variable.size)
-
-
-@pytest.mark.parametrize("name", ["pier", "reduction", "design"])
-def test_no_values_of_the_sliders_raise(name):
-    explorer = getattr(widgets, name)()
-    strategy = st.fixed_dictionaries({n: anywhere_on_its_slider(n) for n in explorer.controls})
-
-    @settings(max_examples=5, deadline=None)
-    @given(values=strategy)
-    def anywhere(values):
-        explorer.set(**values)
-        contents = explorer.widget.contents
-        json.dumps(contents, allow_nan=False)
-        assert contents["refusal"] or contents["charts"]
-        assert "no result" not in contents["refusal"]
-
-    anywhere()
 
 
 def test_a_case_file_needs_a_column():

@@ -1,10 +1,11 @@
-"""What is drawn in the browser: JavaScript modules, and what Python tells them.
+"""What runs in the browser: JavaScript modules, and what Python tells them.
 
-The modules are in `templates/page`. `model` has the mechanics, `column` the pier, `spectrum` and
-`history` what is calculated with them; `chart`, `picture` and `figures` draw, `sentences` says it
-in words, `controls` are the sliders. `explorer` joins them to the explorer of a collision, `charts`
-to one whose charts are calculated in Python, and `widget` puts either into a notebook. They are
-joined into one script.
+The modules are in `templates/page`. `model` has the mechanics, `column` the pier, `scenario` the
+collision of some values, `spectrum` and `history` what is calculated with them; `procedure` is the
+design procedure, translated from Python. `chart`, `picture` and `figures` draw, `sentences` says it
+in words, `controls` are the sliders. `explorer` joins them to the explorer of a collision, and
+`charts` to one of charts, each of which has a module of its own: `shape`, `reduction`,
+`reactions` and `influences`. `widget` puts either into a notebook. They are joined into one script.
 """
 
 import re
@@ -13,9 +14,13 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from pierimpact.design import procedure
+from pierimpact.design.codes import code_forces
+from pierimpact.design.domain import DOMAIN
 from pierimpact.plots import style
 from pierimpact.resources import shipped
-from pierimpact.symbols import dimension
+from pierimpact.symbols import BY_KEY, SYMBOLS, Symbol, dimension
+from pierimpact.teaching import javascript
 from pierimpact.teaching.markup import symbol
 from pierimpact.teaching.variables import VARIABLES
 from pierimpact.units import DIMENSIONS, parse
@@ -24,11 +29,14 @@ from pierimpact.vehicle.truck import Truck
 
 #: The modules of the explorer of a collision, each after those that it imports.
 EXPLORER = (
-    "model", "spectrum", "history", "chart", "sentences", "picture", "column", "controls",
-    "explorer",
+    "model", "spectrum", "history", "chart", "sentences", "picture", "column", "scenario",
+    "controls", "explorer",
 )  # fmt: skip
 #: Those of all explorers in a notebook.
-WIDGET = (*EXPLORER, "figures", "charts", "widget")
+WIDGET = (
+    *EXPLORER, "figures", "procedure", "shape", "reduction", "reactions", "influences",
+    "charts", "widget",
+)  # fmt: skip
 
 _SPOKEN = {
     "km/h": "kilometres per hour",
@@ -44,10 +52,14 @@ _SPOKEN = {
 
 def script(*modules: str) -> str:
     """Return modules joined into one script, each in a scope of its own."""
-    folder = shipped("templates") / "page"
-    return "".join(
-        _scoped(name, (folder / f"{name}.mjs").read_text(encoding="utf-8")) for name in modules
-    )
+    return "".join(_scoped(name, _module(name)) for name in modules)
+
+
+def _module(name: str) -> str:
+    """Return a module: a file, or the design procedure as JavaScript."""
+    if name == "procedure":
+        return javascript.module([procedure.amplification, *procedure.LEVELS.values()])
+    return (shipped("templates") / "page" / f"{name}.mjs").read_text(encoding="utf-8")
 
 
 def _scoped(name: str, module: str) -> str:
@@ -84,13 +96,55 @@ def truck_data(truck: Truck) -> dict[str, Any]:
 
 
 def _body(mass: float, spring: CrushSpring) -> dict[str, float]:
-    return {
-        "mass": mass,
-        "plateauForce": spring.plateau_force,
-        "plateauLength": spring.plateau_length,
-        "stiffness": spring.stiffness,
-        "unloadingStiffness": spring.unloading_stiffness,
+    return {"mass": mass} | {_camel(name): value for name, value in vars(spring).items()}
+
+
+def symbols_data(*names: str) -> dict[str, str]:
+    """Return symbols as HTML, by their names in `pierimpact.symbols`."""
+    return {name: symbol(SYMBOLS[name].latex) for name in names}
+
+
+def codes_data() -> list[dict[str, Any]]:
+    """Return the forces of codes: each a value [N], or the stiffness k of F = v √(k m) [N/m]."""
+    return [
+        {"name": code.code, "remark": code.along.remark}
+        | ({"stiffness": code.stiffness.value} if code.stiffness else {"value": code.along.value})
+        for code in code_forces(1.0, 1.0)
+    ]
+
+
+def domain_data() -> list[dict[str, Any]]:
+    """Return what bounds the domain in which the design formulas were studied."""
+    return [
+        {"name": name, "meaning": SYMBOLS[name].meaning.capitalize()} | bound._asdict()
+        for name, bound in DOMAIN.items()
+    ]
+
+
+def parameters_data() -> list[dict[str, Any]]:
+    """Return the parameters of a truck: where a truck of `truck_data` has them, and their names."""
+    paths = {"engine_mass": ["engine", "mass"], "body_mass": ["body", "mass"]}
+    paths["friction_force"] = ["friction"]
+    springs = {
+        f"{body}_spring.{name}": [body, _camel(name)]
+        for body in ("engine", "body")
+        for name in CrushSpring.__dataclass_fields__
     }
+    return [
+        {"path": path, "meaning": BY_KEY[key].meaning, "short": _short_name(BY_KEY[key])}
+        for key, path in (springs | paths).items()
+    ]
+
+
+def _short_name(parameter: Symbol) -> str:
+    """Return the name of a truck parameter as a chart has room for it."""
+    words, of, spring = parameter.meaning.partition(" of the ")
+    return f"{spring.removesuffix(' spring')}: {words}" if of else parameter.meaning
+
+
+def _camel(name: str) -> str:
+    first, *others = name.split("_")
+    return "".join([first, *(word.capitalize() for word in others)])
 
 
 def variable_data(name: str, **own: float) -> dict[str, Any]:

@@ -1,8 +1,8 @@
-"""An explorer: one widget, drawn in the browser, whose values Python knows; and its still."""
+"""An explorer: one widget, calculated and drawn in the browser, whose values Python knows."""
 
 import html
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -13,21 +13,14 @@ import traitlets
 from pierimpact.checks import InputError
 from pierimpact.teaching import browser
 from pierimpact.teaching.markup import show, still
-from pierimpact.teaching.readouts import Readout
 from pierimpact.teaching.scenario import FREQUENCIES, REFERENCE, Scenario
 from pierimpact.teaching.scenario_files import case_text, truck_text
 from pierimpact.teaching.variables import VARIABLES
 
-_HOW_TO_GET_LIVE = (
-    "For the live explorer, install with <code>pip install 'pierimpact[teach]'</code> and run "
-    "<code>pierimpact teach</code>."
+_WITH_PYTHON = (
+    "It calculates here, in the browser. To use it beside Python, install with <code>pip install "
+    "'pierimpact[teach]'</code> and run <code>pierimpact teach</code>."
 )
-# The variables that a column takes the place of, and those of a column.
-_PIER = ("pier_frequency", "pier_mass")
-_COLUMN = ("column_diameter", "column_height", "impact_height", "base", "top")
-
-#: A chart as `templates/page/figures.mjs` draws it.
-Chart = dict[str, Any]
 
 
 @cache
@@ -42,7 +35,6 @@ class View(anywidget.AnyWidget):
     _css = traitlets.Unicode().tag(sync=True)
     setup = traitlets.Dict().tag(sync=True)  #: what never changes
     values = traitlets.Dict().tag(sync=True)  #: of the variables, in SI units
-    contents = traitlets.Dict().tag(sync=True)  #: what is calculated in Python
     copied: Any = traitlets.List().tag(sync=True)  #: names and contents of files to copy
 
     @traitlets.default("_esm")
@@ -86,8 +78,15 @@ class Explorer:
         above = setup.get("above", [])
         self.controls = [*above, *controls, *(name for names in drawers.values() for name in names)]
         values = {name: getattr(self.defaults, name) for name in VARIABLES}
+        material = Scenario().column.values
         self._setup = {
             "title": title,
+            "truck": browser.truck_data(REFERENCE),
+            "concrete": {
+                "elasticModulus": material["E"],
+                "shearModulus": material["kappa"] * material["G"],
+                "density": material["rho"],
+            },
             "variables": browser.variables_data(self.controls),
             "side": list(controls),
             "drawers": drawers,
@@ -116,9 +115,9 @@ class Explorer:
 
     @property
     def still(self) -> str:
-        """The explorer at its default values, as HTML that needs nothing else."""
+        """The explorer as HTML that needs nothing else, not even a kernel."""
         setup = self._setup | {"values": self._setup["defaults"]}
-        return still(_frame(setup, self.title, ""))
+        return still(_frame(setup, self.title))
 
     def _ipython_display_(self) -> None:
         show(self.widget, self.still, self.title)
@@ -136,14 +135,7 @@ class CollisionExplorer(Explorer):
     """
 
     def __init__(self, *, spectra: bool, energy: bool, **options: Any) -> None:
-        material = Scenario().column.values
         super().__init__(
-            truck=browser.truck_data(REFERENCE),
-            concrete={
-                "elasticModulus": material["E"],
-                "shearModulus": material["kappa"] * material["G"],
-                "density": material["rho"],
-            },
             range={"low": FREQUENCIES[0], "high": FREQUENCIES[1]},
             spectra=spectra,
             energy=energy,
@@ -170,56 +162,10 @@ class CollisionExplorer(Explorer):
         self.widget.copied = []
 
 
-class ChartExplorer(Explorer):
-    """An explorer whose charts are calculated in Python.
-
-    Parameters
-    ----------
-    draw : callable
-        From a scenario to its readout and its charts. An `InputError` that it raises is shown as a
-        sentence.
-    **options
-        As for an `Explorer`.
-    """
-
-    def __init__(
-        self, *, draw: Callable[[Scenario], tuple[Readout, list[Chart]]], **options: Any
-    ) -> None:
-        super().__init__(contents=True, **options)
-        self._draw = draw
-        self.redraw()
-        self._first = self.widget.contents
-        self.widget.observe(lambda _: self.redraw(), "values")
-
-    def redraw(self) -> None:
-        """Calculate what is shown at the present values, or say why that cannot be done."""
-        refusal = "The model has no result for these values. Change one of them."
-        try:
-            readout, charts = self._draw(self.scenario())
-        except InputError as error:
-            self.widget.contents = {"refusal": f"{error}."}
-        except (ArithmeticError, ValueError, RuntimeError):
-            # A student must not see a traceback, whatever values break the model.
-            self.widget.contents = {"refusal": refusal}
-        else:
-            self.widget.contents = {
-                "charts": charts,
-                "readout": readout.html,
-                "words": readout.words,
-                "refusal": "",
-            }
-
-    @property
-    def still(self) -> str:
-        """The charts at the default values, as HTML that needs nothing else."""
-        values = {"values": self._setup["defaults"], "contents": self._first}
-        return still(_frame(self._setup | values, self.title, self._first["words"]))
-
-
-def _frame(setup: Mapping[str, Any], title: str, words: str) -> str:
-    """Return an explorer as a page in a frame: live where it needs no kernel."""
+def _frame(setup: Mapping[str, Any], title: str) -> str:
+    """Return an explorer as a page in a frame."""
     data = json.dumps(setup).replace("<", "\\u003c")
-    start = f"widgetModule.still(document.getElementById('explorer'), {data});"
+    start = f"widgetModule.explore(document.getElementById('explorer'), {data});"
     page = (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(title)}'
         f"</title><style>body {{ margin: 0; padding: 4px; }}{browser.stylesheet('explorer')}"
@@ -229,6 +175,5 @@ def _frame(setup: Mapping[str, Any], title: str, words: str) -> str:
     return (
         f'<figure style="margin:0"><iframe title="{html.escape(title)}" sandbox="allow-scripts" '
         f'style="width:100%;height:46rem;border:0" srcdoc="{html.escape(page)}"></iframe>'
-        f"<figcaption>{html.escape(title)}. {html.escape(words)} {_HOW_TO_GET_LIVE}</figcaption>"
-        "</figure>"
+        f"<figcaption>{html.escape(title)}. {_WITH_PYTHON}</figcaption></figure>"
     )

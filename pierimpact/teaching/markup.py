@@ -64,11 +64,6 @@ def refusal(words: str) -> str:
     return paragraph(html.escape(words), f"{_WARNED};padding:14px 16px", role="alert")
 
 
-def warning(words: str) -> str:
-    """Return a sentence of warning."""
-    return paragraph(html.escape(words), f"{_WARNED};padding:2px 10px")
-
-
 def muted(content: str) -> str:
     """Return HTML as a remark that stands back."""
     return f'<div style="color:{MUTED}">{content}</div>'
@@ -78,18 +73,6 @@ def choice_list(choices: Iterable[str]) -> str:
     """Return choices as a list, nothing where there are none."""
     items = "".join(f"<li>{html.escape(words)}</li>" for words in choices)
     return items and f'<ul style="color:{INK}">{items}</ul>'
-
-
-def named_values(items: Sequence[tuple[str, object, str]]) -> str:
-    """Return values side by side: the name of each as HTML, the value, and what it is."""
-    cells = "".join(
-        f'<div title="{html.escape(hint)}" style="padding:2px 18px 2px 0">'
-        f'<div style="font-size:11px;color:{MUTED}">{name}</div>'
-        f'<div style="font-size:16px;font-weight:600;color:{INK};white-space:nowrap">'
-        f"{html.escape(str(value))}</div></div>"
-        for name, value, hint in items
-    )
-    return f'<div style="display:flex;flex-wrap:wrap;line-height:1.35">{cells}</div>'
 
 
 def table(

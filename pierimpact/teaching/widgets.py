@@ -1,14 +1,15 @@
 """The explorers of the teaching notebooks: `widgets.collision()` and its siblings."""
 
-from pierimpact.teaching import charts, explorer_data, readouts
-from pierimpact.teaching.explorer import Chart, ChartExplorer, CollisionExplorer, Explorer
-from pierimpact.teaching.readouts import Readout
-from pierimpact.teaching.scenario import EXAMPLE, Scenario
+from pierimpact.teaching import browser
+from pierimpact.teaching.explorer import CollisionExplorer, Explorer
+from pierimpact.teaching.scenario import EXAMPLE
 from pierimpact.teaching.variables import CRUSH
 
 _TRUCK = ["speed", "truck_mass"]
 _COLUMN = ["column_diameter", "column_height", "base", "top", "damping_ratio"]
 _PIER = ["pier_frequency", "pier_mass", "damping_ratio"]
+#: How far each parameter is moved, as in the parametric study [-].
+CHANGE = 0.3
 
 
 def collision() -> Explorer:
@@ -54,54 +55,43 @@ def spectra() -> Explorer:
 
 def pier() -> Explorer:
     """Explore how a column becomes a mass on a spring, Eqs 1–3."""
-
-    def draw(scenario: Scenario) -> tuple[Readout, list[Chart]]:
-        return readouts.shape(scenario), charts.pier(scenario)
-
-    return ChartExplorer(
+    return Explorer(
         title="The shape function, and the pier’s stiffness and mass against the impact height",
         controls=["impact_height", "column_diameter", "column_height", "base", "top"],
-        draw=draw,
+        kind="shape",
+        symbols=browser.symbols_data("kp", "mp", "fp"),
     )
 
 
 def reduction() -> Explorer:
     """Explore the reduction to two degrees of freedom: the amplification of either body."""
-
-    def draw(scenario: Scenario) -> tuple[Readout, list[Chart]]:
-        values = explorer_data.short_procedure(scenario)
-        return readouts.amplification(scenario, values), charts.amplification(scenario, values)
-
-    return ChartExplorer(
+    return Explorer(
         title="The amplification of engine and cargo against the frequency ratio",
         controls=[*_PIER, *_TRUCK],
-        draw=draw,
         defaults=EXAMPLE,
+        kind="reduction",
     )
 
 
 def design() -> Explorer:
     """Explore the design reaction beside the full model and the forces of codes."""
-
-    def draw(scenario: Scenario) -> tuple[Readout, list[Chart]]:
-        return readouts.design(scenario), charts.reactions(scenario)
-
-    return ChartExplorer(
+    return Explorer(
         title="Design reaction, full model and code forces",
         controls=[*_TRUCK, *_COLUMN, "impact_height"],
-        draw=draw,
+        kind="reactions",
+        symbols=browser.symbols_data("fp"),
+        codes=browser.codes_data(),
+        domain=browser.domain_data(),
     )
 
 
 def sensitivity() -> Explorer:
     """Explore which parameters of the truck matter."""
-
-    def draw(scenario: Scenario) -> tuple[Readout, list[Chart]]:
-        changes = explorer_data.influences(scenario)
-        return readouts.influence(scenario, changes), charts.influences(changes)
-
-    return ChartExplorer(
+    return Explorer(
         title="Sensitivity of either peak to the parameters of the truck",
         controls=[*_TRUCK, *_COLUMN],
-        draw=draw,
+        kind="influences",
+        symbols=browser.symbols_data("fp", "kp", "mp"),
+        parameters=browser.parameters_data(),
+        change=CHANGE,
     )

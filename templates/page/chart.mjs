@@ -29,6 +29,11 @@ export function hertz(frequency) {
   return `${frequency.toFixed(frequency < 99.95 ? 1 : 0)} Hz`;
 }
 
+/** A number in three figures, or all before the decimal point. */
+export function number(value) {
+  return value >= 1000 ? Math.round(value).toLocaleString("en").replaceAll(",", " ") : String(Number(value.toPrecision(3)));
+}
+
 /** Fit a chart to the room that it has, so that its text keeps its size: before it is drawn. */
 export function fit(svg) {
   svg.setAttribute("viewBox", `0 0 ${svg.clientWidth} ${svg.clientHeight}`);

@@ -23,7 +23,9 @@ export function isMechanism(base, top) {
  * The equivalent pier of a column of circular section.
  *
  * column: { diameter, height, impact, base, top, elasticModulus, shearModulus: that of the material
- *   times the share of the area in shear, density }, in SI units. Returns { stiffness, mass }.
+ *   times the share of the area in shear, density }, in SI units. Returns { stiffness, mass,
+ *   shape(z): the shape function φ, shear: the share of the deflection that is shear's, whole: the
+ *   mass of the column }.
  */
 export function pierOf({ diameter, height, impact, base, top, elasticModulus, shearModulus, density }) {
   const area = (Math.PI * diameter ** 2) / 4, EI = (elasticModulus * Math.PI * diameter ** 4) / 64;
@@ -52,7 +54,10 @@ export function pierOf({ diameter, height, impact, base, top, elasticModulus, sh
   const square = (from, to) => GAUSS.reduce(
     (sum, [x, weight]) => sum + 0.5 * (to - from) * weight * w(0.5 * (from + to) + 0.5 * (to - from) * x) ** 2, 0);
   const deflection = w(impact);
+  // Shear's part by the work of a unit force, whose shear is V0 below it and V0 − 1 above.
+  const sheared = (start[3] ** 2 * impact + (start[3] - 1) ** 2 * (height - impact)) / GA;
   return {
+    shape: (z) => w(z) / deflection, shear: sheared / deflection, whole: density * area * height,
     stiffness: 1 / deflection,
     mass: (density * area * (square(0, impact) + square(impact, height))) / deflection ** 2,
   };

@@ -1,21 +1,20 @@
 // The explorer of one collision: its picture, its forces, and its place on the spectra.
-import { MARGIN, drawEnergy, drawHere, drawHistory, drawInstant, drawSpectrum, fit, force, hertz, roundUp } from "./chart.mjs";
-import { isMechanism, pierOf } from "./column.mjs";
+import { MARGIN, drawEnergy, drawHere, drawHistory, drawInstant, drawSpectrum, fit, force, hertz, number, roundUp } from "./chart.mjs";
 import { Control, button, make } from "./controls.mjs";
 import { energyShares, follow } from "./history.mjs";
 import { EXAGGERATION, drawPicture } from "./picture.mjs";
+import { collisionOf, pierFrom, refusal } from "./scenario.mjs";
 import { answer, firstPeak, phase, sentence } from "./sentences.mjs";
-import { bandsOf, coarseSpectrum, isEnginePeak, pierAt, refine } from "./spectrum.mjs";
+import { bandsOf, coarseSpectrum, isEnginePeak, pierAt, pointAt, refine } from "./spectrum.mjs";
 
 const COARSE = 33; // points of a spectrum while a slider moves
-const SLICE = 12; // refining goes on for so long at a time [ms]
+const SLICE = 24; // refining goes on for so long at a time [ms]
 const SLOWER = 40; // the collision is played so many times slower than it is
 const STRETCH = 0.05; // the axis of time grows by so much at a time [s]
 // Moments to look at, by the time that the outcome has for them; at first the one that governs.
 const GOVERNING = "governing";
 const MOMENTS = { engineContact: "Engine hits", engineTime: "Engine’s peak", cargoContact: "Cargo hits", cargoTime: "Cargo’s peak" };
 const COLUMN = ["column_diameter", "column_height", "impact_height", "base", "top"];
-const SPRING = { plateau_force: "plateauForce", plateau_length: "plateauLength", stiffness: "stiffness", unloading_stiffness: "unloadingStiffness" };
 
 const skeleton = (id) => `
 <section class="spectra" aria-label="The peaks over the frequency of the pier">
@@ -57,50 +56,6 @@ const skeleton = (id) => `
   </figure>
 </section>
 <section class="controls" id="${id}controls" aria-label="Truck and pier"></section>`;
-
-/** The truck of these values, as `simulate` takes it: its own parameters where they are not among them. */
-function truckOf(truck, values) {
-  const spring = (body) => Object.fromEntries(Object.entries(SPRING).map(([key, name]) =>
-    [name, values[`${body}_${key}`] ?? truck[body][name]]));
-  const mass = values.engine_mass ?? truck.engine.mass;
-  return {
-    ...truck,
-    friction: values.friction_force ?? truck.friction,
-    engine: { ...spring("engine"), mass },
-    body: { ...spring("body"), mass: values.truck_mass - mass },
-  };
-}
-
-/** The frequency [Hz] and mass of the pier: as they are given, or those of a column. */
-function pierFrom(values, concrete) {
-  if (values.pier_frequency !== null) return { frequency: values.pier_frequency, mass: values.pier_mass };
-  const { stiffness, mass } = pierOf({
-    diameter: values.column_diameter, height: values.column_height, impact: values.impact_height,
-    base: values.base, top: values.top, ...concrete,
-  });
-  return { frequency: Math.sqrt(stiffness / mass) / (2 * Math.PI), mass };
-}
-
-/** Why there is no such collision, as a sentence; empty where there is. */
-function refusal({ engine, body }, values) {
-  if (values.pier_frequency === null) {
-    const { base, top, column_height: height, impact_height: impact } = values;
-    if (isMechanism(base, top)) {
-      return `With a ${base} base and a ${top} top the column is a mechanism: fix one end, or pin both.`;
-    }
-    if (impact >= height) return "The truck strikes above the column: lower the impact height.";
-  }
-  if (body.mass <= 0) return "The truck’s total mass must exceed that of its engine.";
-  for (const [name, spring] of [["engine", engine], ["body", body]]) {
-    if (spring.unloadingStiffness < spring.stiffness) {
-      return `The ${name} spring’s unloading stiffness must be at least its steep stiffness.`;
-    }
-    if (spring.plateauLength < spring.plateauForce / spring.unloadingStiffness) {
-      return `The ${name} spring’s plateau is too short: its force over its unloading stiffness must fit in.`;
-    }
-  }
-  return "";
-}
 
 /**
  * The explorer in an element.
@@ -218,11 +173,7 @@ export class Explorer {
   // What is on show
 
   get collision() {
-    const { frequency, mass } = pierFrom(this.values, this.setup.concrete);
-    return {
-      truck: truckOf(this.truck, this.values), frequency,
-      pier: { mass, dampingRatio: this.values.damping_ratio }, speed: this.values.speed,
-    };
+    return collisionOf(this.values, { ...this.setup, truck: this.truck });
   }
 
   #otherPier() {
@@ -255,7 +206,7 @@ export class Explorer {
   }
 
   #refused() {
-    return refusal(truckOf(this.truck, this.values), this.values);
+    return refusal(this.values, this.truck);
   }
 
   /** Whether there is such a collision; if not, the reason stands in its place. */
@@ -277,7 +228,7 @@ export class Explorer {
     const low = Math.min(this.setup.range.low, frequency / 1.2), high = Math.max(this.setup.range.high, 1.2 * frequency);
     const range = { low: low < this.setup.range.low ? Number(low.toPrecision(1)) / 2 : low, high: high > this.setup.range.high ? roundUp(high) : high };
     this.shown = framed(coarseSpectrum(range, COARSE, now), now, range);
-    const points = this.shown.points.slice(), refinement = refine(points, now);
+    const points = this.shown.points.slice(), refinement = refine(points, (each) => pointAt(each, now));
     const slice = () => {
       const end = performance.now() + SLICE;
       while (performance.now() < end) {
@@ -451,10 +402,6 @@ function momentOf(outcome, moment) {
   if (moment === GOVERNING) return cargo !== null && cargo >= engine ? cargoTime : engineTime;
   if (moment === "engineTime" && !isEnginePeak(outcome)) return null;
   return outcome[moment] ?? null;
-}
-
-function number(value) {
-  return value >= 1000 ? Math.round(value).toLocaleString("en").replaceAll(",", " ") : String(Number(value.toPrecision(3)));
 }
 
 function percent(share) {

@@ -77,9 +77,10 @@ export function drawLines(svg, { title, x, y, curves, level, here }) {
   }
   if (here) {
     const at = X(here.x), late = at > left + 0.6 * (right - left), up = Y(here.y);
+    const width = LETTER * here.words.length, beside = late ? Math.max(at - 11, left + width) : Math.min(at + 11, right - width);
     drawing.push(element("line", { x1: at, x2: at, y1: top, y2: foot, class: "here" }),
       element("circle", { cx: at, cy: up, r: 5, class: `mark ${here.style}` }),
-      tag(here.words, at + (late ? -11 : 11), Math.min(Math.max(up - 9, top + 14), foot - 6), "value", late ? "end" : "start"));
+      tag(here.words, beside, Math.min(Math.max(up - 9, top + 14), foot - 6), "value", late ? "end" : "start"));
   }
   svg.replaceChildren(...drawing);
 }
@@ -91,6 +92,17 @@ function turned(words, x, y) {
 /** How high a chart of bars is, with all of its rows [px]. */
 export function barsHeight({ rows }) {
   return TOP + BAR * rows.length + BOTTOM;
+}
+
+/** Words in lines that have so much room. */
+function inLines(words, room) {
+  const lines = [];
+  for (const word of words ? words.split(" ") : []) {
+    const longer = `${lines.at(-1) ?? ""} ${word}`.trim();
+    if (lines.length && LETTER * longer.length <= room) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
 }
 
 /** The axis long enough for the words beside the bars, and these: without remark where room is short. */
@@ -131,8 +143,9 @@ export function drawBars(svg, { title, x, rows, key: names = [], empty = "" }) {
       const [a, b] = [X(0), X(value)].sort((p, q) => p - q);
       drawing.push(element("rect", { x: a, y: y + 4, width: b - a, height: BAR - 8, class: `bar ${style}` }));
     }
-    if (said[n]) words.push(tag(said[n], Math.max(X(0), ...bars.map(({ value }) => X(value ?? 0))) + 6, middle, "value", "start"));
+    const end = Math.max(X(0), ...bars.map(({ value }) => X(value ?? 0))) + 6;
+    if (said[n]) words.push(tag(said[n], Math.min(end, right - LETTER * said[n].length), middle, "value", "start"));
   });
-  if (empty) words.push(text(empty, 0.5 * (left + right), 0.5 * (TOP + foot), "label"));
+  inLines(empty, room).forEach((line, n) => words.push(text(line, 0.5 * (left + right), 0.5 * (TOP + foot) + n * ROW, "label")));
   svg.replaceChildren(...drawing, ...words);
 }

@@ -19,7 +19,7 @@ const X1 = 0, V1 = 1, X2 = 2, V2 = 3, XP = 4, VP = 5;
 
 // Numerical settings: derivatives taken; how far the fastest vibration may turn in a step [rad];
 // the longest step [s]; how closely an instant is found, as a share of the step; the most steps.
-const ORDER = 9, PHASE = 0.5, LONGEST = 2e-3, CLOSE = 1e-12, STEPS = 200000;
+const ORDER = 11, PHASE = 1, LONGEST = 2e-3, CLOSE = 1e-10, STEPS = 200000;
 const RECIPROCALS = Float64Array.from({ length: ORDER + 1 }, (_, n) => 1 / n);
 
 /**
@@ -55,12 +55,12 @@ class CrushSpring {
     this.line = line;
     this.loading = line === "plateau" || line === "steep";
     this.lower = line === "unloading" ? residual : -Infinity;
-    [this.slope, this.intercept, this.upper] = {
-      apart: [0, 0, residual],
-      unloading: [ku, -ku * residual, largest],
-      plateau: [0, P, d],
-      steep: [k, P - k * d, Infinity],
-    }[line];
+    switch (line) {
+      case "apart": this.slope = 0, this.intercept = 0, this.upper = residual; break;
+      case "unloading": this.slope = ku, this.intercept = -ku * residual, this.upper = largest; break;
+      case "plateau": this.slope = 0, this.intercept = P, this.upper = d; break;
+      default: this.slope = k, this.intercept = P - k * d, this.upper = Infinity; // steep
+    }
   }
 
   crush(y) {
@@ -108,11 +108,11 @@ class Friction {
   velocity(y) {
     return y[V2] - (this.onPier ? y[VP] : 0);
   }
+}
 
-  /** The force that holds the body to it: x2'' = 0 on the road, x2'' = xp'' on the pier. */
-  holding(F1, F2, resistance) {
-    return -F2 - this.share * (F1 - resistance);
-  }
+/** The friction that holds the body: x2'' = 0 on the road, x2'' = xp'' on the pier. */
+function held(F1, F2, resistance, share) {
+  return -F2 - share * (F1 - resistance);
 }
 
 /**
@@ -123,91 +123,100 @@ class Friction {
  * pier: { mass, stiffness, dampingRatio };
  * speed: at first touch [m/s];
  * duration: time that is covered at least [s];
- * record: called as record(time, y, engine, body) at first touch and after each step.
+ * record: called as record(time, y, engine, body) at first touch and after each step;
+ * start: the state to begin with, in place of that at first touch.
  *
  * Returns the peaks of R before and from cargo contact on [N], their times, and the times of both
  * contacts [s]; null for what does not happen. Beside them the lowest reaction and the largest
  * force on the engine [N].
  */
-export function simulate(truck, pier, speed, { duration = 0, record = null } = {}) {
+export function simulate(truck, pier, speed, { duration = 0, record = null, start = [0, speed, 0, speed, 0, 0] } = {}) {
   const m1 = truck.engine.mass, m2 = truck.body.mass;
   const mp = pier.mass, kp = pier.stiffness, cp = 2 * pier.dampingRatio * Math.sqrt(kp * mp);
   const engine = new CrushSpring(truck.engine, X1, V1), body = new CrushSpring(truck.body, X2, V2);
   const friction = new Friction(truck, pier);
-  const y = new Float64Array([0, speed, 0, speed, 0, 0]); // the state at the start of a step
+  const y = Float64Array.from(start); // the state at the start of a step
   const later = new Float64Array(6); // and within it
+  const happened = new Float64Array(8); // of what may end it, by how far it has happened
 
-  let time = 0, changed = 0; // now, and of the last change
-  let lowest = 0, engineForce = 0;
+  const now = { time: 0, changed: 0, lowest: 0, engineForce: 0 }; // changed: of the last change
   const before = { xp: 0, time: 0 }, after = { xp: 0, time: 0 };
   let peak = before; // `after` from cargo contact on
 
   /** All derivatives of the motion at the start of a step: x1[n] is dⁿx1/dtⁿ, and so on. */
   const [x1, x2, xp] = [1, 2, 3].map(() => new Float64Array(ORDER + 1));
   function differentiate() {
+    const { slope: s1, intercept: i1 } = engine, { slope: s2, intercept: i2 } = body;
+    const { stuck, share, onPier } = friction, sliding = friction.direction * friction.limit;
     x1[0] = y[X1], x1[1] = y[V1], x2[0] = y[X2], x2[1] = y[V2], xp[0] = y[XP], xp[1] = y[VP];
     for (let n = 0; n + 2 <= ORDER; n++) {
       const once = n === 0 ? 1 : 0; // what is constant has no derivatives
-      const F1 = once * engine.intercept + engine.slope * (x1[n] - xp[n]);
-      const F2 = once * body.intercept + body.slope * (x2[n] - xp[n]);
+      const F1 = once * i1 + s1 * (x1[n] - xp[n]);
+      const F2 = once * i2 + s2 * (x2[n] - xp[n]);
       const resistance = kp * xp[n] + cp * xp[n + 1];
-      const Fs = friction.stuck
-        ? friction.holding(F1, F2, resistance)
-        : once * friction.direction * friction.limit;
+      const Fs = stuck ? held(F1, F2, resistance, share) : once * sliding;
       x1[n + 2] = -F1 / m1;
       x2[n + 2] = -(F2 + Fs) / m2;
-      xp[n + 2] = (F1 + F2 + (friction.onPier ? Fs : 0) - resistance) / mp;
+      xp[n + 2] = (F1 + F2 + (onPier ? Fs : 0) - resistance) / mp;
     }
   }
 
-  /** Put the state a time t after the start of the step into `later`: x(t) = Σ x[n] tⁿ/n!. */
+  /** Put the state a time t after the start of the step into `later`, by x(t) = Σ x[n] tⁿ/n!. */
   function advance(t) {
-    later[X1] = sum(x1, 0, t), later[V1] = sum(x1, 1, t);
-    later[X2] = sum(x2, 0, t), later[V2] = sum(x2, 1, t);
-    later[XP] = sum(xp, 0, t), later[VP] = sum(xp, 1, t);
+    let p1 = x1[ORDER], p2 = x2[ORDER], pp = xp[ORDER], v1 = 0, v2 = 0, vp = 0;
+    for (let n = ORDER - 1; n >= 0; n--) {
+      const share = t * RECIPROCALS[n + 1];
+      p1 = x1[n] + p1 * share, v1 = x1[n + 1] + v1 * share;
+      p2 = x2[n] + p2 * share, v2 = x2[n + 1] + v2 * share;
+      pp = xp[n] + pp * share, vp = xp[n + 1] + vp * share;
+    }
+    later[X1] = p1, later[V1] = v1, later[X2] = p2, later[V2] = v2, later[XP] = pp, later[VP] = vp;
   }
 
   /** The longest step in which no vibration turns by more than PHASE. */
   function longestStep() {
     const fastest = Math.max(engine.slope / m1, body.slope / m2) + (cp / mp) ** 2
       + (kp + engine.slope + body.slope) / mp;
-    return Math.min(PHASE / Math.sqrt(fastest), LONGEST);
+    const turn = record ? 0.5 * PHASE : PHASE; // what is drawn has straight lines between its steps
+    return Math.min(turn / Math.sqrt(fastest), LONGEST);
   }
 
   function holding(state) {
     const resistance = kp * state[XP] + cp * state[VP];
-    return friction.holding(engine.force(state), body.force(state), resistance);
+    return held(engine.force(state), body.force(state), resistance, friction.share);
   }
 
   /**
-   * What ends a step, in `later`: positive as soon as it has happened. Crushes and pier turn first;
-   * between their turns they only rise or only fall, so that nothing else is passed unseen.
+   * What ends a step, by how far it has happened in `later`: positive as soon as it has. Crushes and
+   * pier turn first; between their turns they only rise or only fall, so that nothing else is passed
+   * unseen.
    */
-  function happened(what) {
-    switch (what) {
-      case 0: return -Math.sign(engine.rate(y)) * engine.rate(later);
-      case 1: return -Math.sign(body.rate(y)) * body.rate(later);
-      case 2: return y[VP] > 0 && y[XP] + y[VP] * LONGEST > peak.xp ? -later[VP] : -1;
-      case 3: return engine.crush(later) - engine.upper;
-      case 4: return engine.lower - engine.crush(later);
-      case 5: return body.crush(later) - body.upper;
-      case 6: return body.lower - body.crush(later);
-      default: return friction.stuck
-        ? Math.abs(holding(later)) - friction.limit
-        : -friction.direction * friction.velocity(later);
-    }
+  function measure() {
+    const crush1 = engine.crush(later), crush2 = body.crush(later);
+    happened[0] = -Math.sign(engine.rate(y)) * engine.rate(later);
+    happened[1] = -Math.sign(body.rate(y)) * body.rate(later);
+    happened[2] = y[VP] > 0 && y[XP] + y[VP] * LONGEST > peak.xp ? -later[VP] : -1;
+    happened[3] = crush1 - engine.upper;
+    happened[4] = engine.lower - crush1;
+    happened[5] = crush2 - body.upper;
+    happened[6] = body.lower - crush2;
+    happened[7] = friction.stuck
+      ? Math.abs(holding(later)) - friction.limit
+      : -friction.direction * friction.velocity(later);
   }
 
-  /** The instant within the step h at which `what` has happened by just a little, to round-off. */
-  function instant(what, h) {
-    let low = 0, high = h, side = 0, above = happened(what);
+  /** Put the instant within the step h at which `what` has happened by just a little into `later`. */
+  function findInstant(what, h) {
+    let low = 0, high = h, side = 0, above = happened[what];
     advance(low);
-    let below = happened(what);
+    measure();
+    let below = happened[what];
     for (let n = 1; high - low > CLOSE * h; n++) {
       let t = low - (below * (high - low)) / (above - below); // where the chord meets zero,
       if (n % 4 === 0 || !(t > low && t < high)) t = 0.5 * (low + high); // or halfway
       advance(t);
-      const value = happened(what);
+      measure();
+      const value = happened[what];
       if (value > 0) {
         if (side > 0) below *= 0.5; // or the chord would end on this side for ever (Illinois rule)
         high = t, above = value, side = 1;
@@ -217,13 +226,15 @@ export function simulate(truck, pier, speed, { duration = 0, record = null } = {
       }
     }
     advance(high);
+    measure();
     return high;
   }
 
   /** The end of the step: after h, or where the first change has happened. */
   function endOfStep(h) {
     advance(h);
-    for (let what = 0; what < 8; what++) if (happened(what) > 0) h = instant(what, h);
+    measure();
+    for (let what = 0; what < happened.length; what++) if (happened[what] > 0) h = findInstant(what, h);
     return h;
   }
 
@@ -231,9 +242,9 @@ export function simulate(truck, pier, speed, { duration = 0, record = null } = {
   function change() {
     const engineChanged = engine.follow(y), wasApart = body.line === "apart";
     const bodyChanged = body.follow(y);
-    if (engine.contact === null && engine.line === "steep") engine.contact = time;
+    if (engine.contact === null && engine.line === "steep") engine.contact = now.time;
     if (body.contact === null && body.line === "steep") {
-      body.contact = after.time = time;
+      body.contact = after.time = now.time;
       after.xp = y[XP];
       peak = after;
     }
@@ -276,23 +287,23 @@ export function simulate(truck, pier, speed, { duration = 0, record = null } = {
     const engineLeft = engine.line === "apart" && y[V1] <= 0;
     const bodyLeft = friction.stuck || (body.line === "apart" && y[V2] <= 0);
     const period = 2 * Math.PI * Math.sqrt((mp + (friction.onPier ? m2 : 0)) / kp);
-    return engineLeft && bodyLeft && time > changed + period;
+    return engineLeft && bodyLeft && now.time > now.changed + period;
   }
 
-  if (record) record(time, y, engine, body);
-  for (let n = 0; time < duration || !finished(); n++) {
+  if (record) record(now.time, y, engine, body);
+  for (let n = 0; now.time < duration || !finished(); n++) {
     if (n === STEPS) throw new Error("the collision did not come to an end");
     differentiate();
-    time += endOfStep(longestStep());
+    now.time += endOfStep(longestStep());
     y.set(later);
     if (y[XP] > peak.xp) {
       peak.xp = y[XP];
-      peak.time = time;
+      peak.time = now.time;
     }
-    lowest = Math.min(lowest, y[XP]);
-    engineForce = Math.max(engineForce, engine.force(y));
-    while (change()) changed = time;
-    if (record) record(time, y, engine, body);
+    now.lowest = Math.min(now.lowest, y[XP]);
+    now.engineForce = Math.max(now.engineForce, engine.force(y));
+    while (change()) now.changed = now.time;
+    if (record) record(now.time, y, engine, body);
   }
   const reached = peak === after;
   return {
@@ -302,14 +313,7 @@ export function simulate(truck, pier, speed, { duration = 0, record = null } = {
     cargo: reached ? kp * after.xp : null,
     cargoTime: reached ? after.time : null,
     cargoContact: body.contact,
-    lowest: kp * lowest,
-    engineForce,
+    lowest: kp * now.lowest,
+    engineForce: now.engineForce,
   };
-}
-
-/** Σ x[n + k] tⁿ/n!, a function or its k-th derivative by Taylor's series. */
-function sum(x, k, t) {
-  let value = x[ORDER];
-  for (let n = ORDER - k - 1; n >= 0; n--) value = x[n + k] + value * t * RECIPROCALS[n + 1];
-  return value;
 }

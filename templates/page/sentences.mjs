@@ -4,7 +4,7 @@ import { isEnginePeak } from "./spectrum.mjs";
 
 /** The outcome of one collision, as `simulate` returns it, on a pier of this frequency [Hz]. */
 export function sentence(frequency, outcome) {
-  const { engine, engineContact, cargo } = outcome, at = `On a pier of ${hertz(frequency)}`;
+  const { engine, engineContact, engineTime, cargo } = outcome, at = `On a pier of ${hertz(frequency)}`;
   if (engineContact === null && cargo === null) {
     return `${at} neither engine nor cargo arrives: crumpling sheet metal stops both. `
       + `The largest reaction is ${force(engine)}.`;
@@ -12,6 +12,10 @@ export function sentence(frequency, outcome) {
   if (engineContact === null) {
     return `${at} the engine stops short and the cargo arrives: its peak is ${force(cargo)}, after `
       + `${force(engine)} from crumpling sheet metal.`;
+  }
+  if (engineContact > engineTime && !(cargo >= engine)) {
+    return `${at} crumpling sheet metal governs, with ${force(engine)} before the engine arrives. `
+      + (cargo === null ? "The cargo stops short of the pier." : `The cargo’s peak is ${force(cargo)}.`);
   }
   if (cargo === null) {
     return `${at} the engine governs, with ${force(engine)}. The cargo stops short of the pier.`;
@@ -29,7 +33,8 @@ export function sentence(frequency, outcome) {
 
 /** What the first of the two peaks is a peak of. */
 export function firstPeak(outcome) {
-  if (outcome.engineContact === null) return "Sheet metal";
+  const { engineContact, engineTime } = outcome;
+  if (engineContact === null || engineContact > engineTime) return "Sheet metal";
   return isEnginePeak(outcome) ? "Engine’s peak" : "Until cargo hits";
 }
 

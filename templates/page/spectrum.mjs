@@ -27,14 +27,14 @@ export function coarseSpectrum({ low, high }, count, collision) {
  * than `tolerance`, until none is left but the shortest. One that is wide is halved anyway: what
  * bends on one side of its middle could be missed.
  *
- * The new points are put into the array. A generator: it yields after each collision, so that
- * whoever refines can pause.
+ * The new points, as `at` returns them for a frequency, are put into the array. A generator: it
+ * yields after each of them, so that whoever refines can pause.
  */
-export function* refine(points, collision, tolerance = TOLERANCE) {
+export function* refine(points, at, { tolerance = TOLERANCE, wide = WIDE } = {}) {
   const open = points.slice(1).map((right, n) => [points[n], right]);
   while (open.length) {
     const [left, right] = open.shift();
-    const middle = pointAt(Math.sqrt(left.frequency * right.frequency), collision);
+    const middle = at(Math.sqrt(left.frequency * right.frequency));
     points.splice(points.indexOf(right), 0, middle);
     const straight = ["engine", "cargo"].every((body) => {
       const [a, b, c] = [left[body], middle[body], right[body]];
@@ -42,7 +42,7 @@ export function* refine(points, collision, tolerance = TOLERANCE) {
       return a !== null && c !== null && Math.abs(0.5 * (a + c) / b - 1) < tolerance;
     });
     const ratio = right.frequency / left.frequency;
-    if (ratio > WIDE || (!straight && ratio > SHORTEST)) {
+    if (ratio > wide || (!straight && ratio > SHORTEST)) {
       open.push([left, middle], [middle, right]);
     }
     yield;
@@ -58,10 +58,11 @@ export function isEnginePeak({ engineContact, engineTime, cargoContact }) {
   return cargoContact === null || cargoContact - engineTime > 1e-6 * cargoContact;
 }
 
-/** What governs at a point: "engine", "cargo", or "sheet metal" where the engine stops short. */
-export function governs({ engine, cargo, engineContact }) {
+/** What governs at a point: "engine", "cargo", or "sheet metal" where neither makes the peak. */
+export function governs(point) {
+  const { engine, cargo } = point;
   if (cargo !== null && cargo >= engine) return "cargo";
-  return engineContact === null ? "sheet metal" : "engine";
+  return isEnginePeak(point) ? "engine" : "sheet metal";
 }
 
 /** Stretches of frequency with one thing governing: { what, low, high, crossing }. */
@@ -70,7 +71,8 @@ export function bandsOf(points, collision) {
   for (let n = 1; n < points.length; n++) {
     const what = governs(points[n]), last = bands.at(-1);
     if (what === last.what) continue;
-    const crossing = points[n - 1].cargo !== null && points[n].cargo !== null;
+    const both = points[n - 1].cargo !== null && points[n].cargo !== null;
+    const crossing = both && (what === "cargo" || last.what === "cargo");
     last.high = crossing
       ? crossingOf(points[n - 1], points[n], collision)
       : points[n].frequency;

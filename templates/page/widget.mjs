@@ -1,13 +1,13 @@
-// The explorers in a notebook, and their stills, which need no kernel.
+// The explorers in a notebook, and where it has no kernel.
 import { Charts } from "./charts.mjs";
 import { button, make } from "./controls.mjs";
 import { Explorer } from "./explorer.mjs";
 
 let count = 0; // of the explorers on a page, whose ids must differ
 
-/** Put an explorer into an element; `told` as it is by an `Explorer`. */
-export function explore(el, setup, told) {
-  const Kind = setup.contents ? Charts : Explorer;
+/** Put an explorer into an element; `told` as it is by an `Explorer`, where there is a kernel. */
+export function explore(el, setup, told = () => {}) {
+  const Kind = setup.kind ? Charts : Explorer;
   const explorer = new Kind(el, { ...setup, id: `explorer${(count += 1)}-` }, told);
   const reset = button("Reset", "", () => {
     explorer.set(setup.defaults);
@@ -21,16 +21,9 @@ export function explore(el, setup, told) {
   return explorer;
 }
 
-/** The still of an explorer: as live as it can be without a kernel. */
-export function still(el, setup) {
-  const explorer = explore(el, setup, () => {});
-  if (setup.contents) explorer.panel.remove();
-}
-
 /** An explorer as a view of a Jupyter widget. */
 export function render({ model, el }) {
   const setup = { ...model.get("setup"), values: model.get("values") };
-  if (setup.contents) setup.contents = model.get("contents");
   const explorer = explore(el, setup, (values) => {
     model.set("values", { ...values });
     model.save_changes();
@@ -44,17 +37,14 @@ export function render({ model, el }) {
     const values = model.get("values");
     if (Object.keys(values).some((name) => values[name] !== explorer.values[name])) explorer.set(values);
   };
-  const show = () => explorer.show(model.get("contents"));
   const showCopied = () => copied.replaceChildren(...model.get("copied").flatMap(([name, content]) => [
     make("p", { className: "quiet", textContent: name && `One click selects; copy into ${name}` }),
     make("pre", { textContent: content, tabIndex: 0 }),
   ]));
   model.on("change:values", take);
-  model.on("change:contents", show);
   model.on("change:copied", showCopied);
   return () => {
     model.off("change:values", take);
-    model.off("change:contents", show);
     model.off("change:copied", showCopied);
     explorer.remove();
   };
