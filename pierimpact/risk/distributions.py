@@ -5,6 +5,7 @@ Values are drawn by the share of all that is larger, which keeps its figures in 
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -87,7 +88,7 @@ class Distribution:
         inside = np.clip(value, self.low, self.high)
         return np.asarray((self.law.sf(inside) - self._above) / self._share)
 
-    @property
+    @cached_property
     def mean(self) -> float:
         """The mean, by quadrature over the shares [SI]."""
         nodes, weights = np.polynomial.legendre.leggauss(200)
