@@ -19,7 +19,7 @@ _DEFINITIONS = """
     s = [time]; ms = 0.001 s; minute = 60 s = min; h = 3600 s; day = 24 h; Hz = 1 / s
     N = kg * m / s ** 2; kN = 1000 N; MN = 1e6 N; GN = 1e9 N
     lbf = 9.80665 lb * m / s ** 2; kip = 1000 lbf
-    rad = [angle]; deg = 0.017453292519943295 rad; vehicle = [vehicle]
+    rad = [angle]; deg = 0.017453292519943295 rad; vehicle = [vehicle] = veh
     Pa = N / m ** 2; kPa = 1000 Pa; MPa = 1e6 Pa; GPa = 1e9 Pa
     psi = lbf / inch ** 2; ksi = kip / inch ** 2
     J = N * m; kJ = 1000 J; MJ = 1e6 J; kph = km / h; mph = mile / h

@@ -44,7 +44,7 @@ def test_the_file_is_up_to_date():
 
 
 @given(st.floats(0.5, 20.0), st.floats(12.0, 30.0))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=8, deadline=None)
 def test_the_chance_of_arriving_faster_is_that_of_the_laws(distance, speed):
     """By Monte Carlo with trucks one by one, at three speeds."""
     scenario = Scenario(distance_from_road=distance, mean_speed=speed)

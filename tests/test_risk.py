@@ -60,8 +60,8 @@ def drawn(traffic, blocks, **options):
 
 @cache
 def motorway(tilted):
-    """A million trucks of a motorway without run-out."""
-    return tuple(drawn(jcss_traffic(1.0, 0.0), range(123), tilted=tilted))
+    """A million trucks of a motorway without run-out, or half as many that are tilted."""
+    return tuple(drawn(jcss_traffic(1.0, 0.0), range(62 if tilted else 123), tilted=tilted))
 
 
 def test_hard_impacts_of_a_motorway_are_those_to_compare_with():
@@ -94,8 +94,8 @@ def test_the_chance_of_arriving_has_a_closed_form(distance, speed, braking):
         np.full(3, speed), np.full(3, braking), np.array([1e-9, 0.5, 1.0])
     )
     sine = 2.0 * braking * distance / speed**2
-    if sine >= 1.0:
-        assert np.all(chance < 1e-20)
+    if sine > 0.9:  # where next to none arrive, and angles end at a right one
+        assert np.all(chance < 1e-12)
         return
     assert chance == pytest.approx(math.exp(-0.5 * (math.asin(sine) / SIGMA) ** 2), rel=1e-9)
     assert arrived[2] == pytest.approx(0.0, abs=1e-5 * speed)  # the smallest angle just arrives
@@ -237,7 +237,7 @@ def test_the_same_seed_gives_the_same_trucks_for_all_piers_workers_and_numbers()
         return (found[block] for block in sorted(found))
 
     size = BLOCK + 50  # more than a block, of trucks that seldom arrive
-    far = jcss_traffic(0.05, 80.0)
+    far = jcss_traffic(0.05, 300.0)
     one, other = (risk(far, trucks, PIER, size, run=run).strikes for run in (map, backward))
     for first, second in zip(one, other, strict=True):
         assert first.tobytes() == second.tobytes()
@@ -295,7 +295,7 @@ def test_the_trucks_that_a_pier_fears_are_heavier_and_faster_than_those_that_str
     assert worst.mass[1] > every.mass[1]
     assert worst.speed[1] > every.speed[1]
     assert 0.0 <= worst.by_engine <= 1.0
-    assert worst.beyond == 1.0  # of a truck of 5 to 12 t
+    assert worst.beyond > 0.9  # of a truck of 5 to 12 t
     assert found.feared(1e12) is None
 
 
@@ -363,7 +363,7 @@ def test_weighed_trucks_keep_mass_and_speed_together():
 def test_a_block_alone_is_that_of_all(monkeypatch):
     from pierimpact.risk.analysis import Task
 
-    traffic = jcss_traffic(0.05, 80.0)
+    traffic = jcss_traffic(0.05, 300.0)
     whole = risk(traffic, [LIGHT], PIER, BLOCK + 100, 2).strikes
     last = strikes_of(Task(traffic, (LIGHT,), PIER, BLOCK + 100, 2, 0.6), 1)
     for part, every in zip(last, whole, strict=True):

@@ -52,7 +52,8 @@ _MORE = {
     "effective_stiffness": "in place of stiffness_factor",
     "impact_height": "or auto: both heights of the rule, the larger reaction governs",
     "truck_mass": "if it is not that of the truck file",
-    "traffic_volume": "for `pierimpact risk`, as are those that follow",
+    "traffic_volume": "on the lanes from which vehicles may come to it; for `pierimpact risk`, as "
+    "are those that follow",
     "exposed_width": "2.5 m of JCSS if left out",
     "encroachment_rate": "1e-10 1/vehicle/m of JCSS if left out",
     "traffic_mass": "a distribution of scipy.stats, such as lognorm(s=0.5, scale=18 t), or "

@@ -34,7 +34,7 @@ USUAL = {
     "moment_resistance": (50e3, 500e6),
     "traffic_volume": (100.0 / 86400.0, 200e3 / 86400.0),
     "truck_share": (0.01, 1.0),
-    "distance_from_road": (0.0, 30.0),
+    "distance_from_road": (0.3, 30.0),
     "exposed_width": (2.5, 20.0),
     "encroachment_rate": (1e-12, 1e-8),
 }

@@ -20,14 +20,8 @@ from pierimpact.risk.traffic import (
     jcss_speed,
 )
 
-#: Without these nothing can be said of the traffic.
+#: Without any of these nothing can be said of the traffic.
 NEEDED = ("traffic_volume", "truck_share", "distance_from_road")
-#: All keys of the traffic.
-TRAFFIC_KEYS = (
-    *NEEDED,
-    *("exposed_width", "encroachment_rate", "traffic_mass", "traffic_speed"),
-    *("traffic_deceleration", "traffic_angle", "weigh_in_motion", "traffic_trucks"),
-)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +33,7 @@ class CaseTraffic:
 
 
 def traffic_of(inputs: Inputs, truck_file: TruckFile, folder: Path) -> CaseTraffic | None:
-    """Return the traffic of a case; None where it gives no key of it.
+    """Return the traffic of a case; None where it does not give all of NEEDED.
 
     Parameters
     ----------
@@ -53,14 +47,11 @@ def traffic_of(inputs: Inputs, truck_file: TruckFile, folder: Path) -> CaseTraff
     Raises
     ------
     InputError
-        When a key that is needed is missing, or a value breaks a rule.
+        When a value breaks a rule.
     """
-    if not any(getattr(inputs, key) for key in TRAFFIC_KEYS):
-        return None
     volume, share, distance = (getattr(inputs, key) for key in NEEDED)
-    for key, value in zip(NEEDED, (volume, share, distance), strict=True):
-        if value is None:
-            raise InputError(f"{key} is missing: traffic needs {', '.join(NEEDED)}")
+    if volume is None or share is None or distance is None:
+        return None
     if inputs.weigh_in_motion and inputs.traffic_mass:
         raise InputError("give one of traffic_mass and weigh_in_motion")
     sample = (

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
 
 from pierimpact.plots.style import BLUE, GREY, ORANGE, VERMILION, sheet_figure, to_svg
 from pierimpact.risk.analysis import Risk
@@ -19,7 +20,8 @@ Array = NDArray[np.float64]
 CURVES = {"full model, 95 % band": BLUE, "v √(k m) of JCSS": ORANGE}
 _POINTS = 300  # of a curve
 _LOWEST = 1e-7  # frequency shown [1/year]
-_CELLS = (44, 36)  # of the map, over mass and over speed
+_CELLS = (48, 40)  # of the map, over mass and over speed
+_SMOOTH = 1.4  # standard deviation by which the map is smoothed [cells]
 
 
 def reactions(risk: Risk, count: int = _POINTS) -> Array:
@@ -116,7 +118,9 @@ def draw_feared(risk: Risk, level: float, system: str) -> str:
         for values, cells in zip((mass, speed), _CELLS, strict=True)
     ]
     of_above, of_every = (
-        np.histogram2d(mass, speed, bins=(edges[0], edges[1]), weights=weights)[0]
+        gaussian_filter(
+            np.histogram2d(mass, speed, bins=(edges[0], edges[1]), weights=weights)[0], _SMOOTH
+        )
         for weights in (above, every)
     )
     margins = {"left": 0.085, "right": 0.985, "top": 0.97, "bottom": 0.14}
@@ -125,11 +129,8 @@ def draw_feared(risk: Risk, level: float, system: str) -> str:
             2, 2, width_ratios=(4.0, 1.0), height_ratios=(1.0, 3.2), sharex="col", sharey="row"
         )
         corner.set_axis_off()
-        contribution = 100.0 * of_above / max(of_above.sum(), 1e-300)
-        axes.pcolormesh(
-            edges[0], edges[1], np.where(contribution > 0.0, contribution, np.nan).T,
-            cmap="YlOrRd", rasterized=True,
-        )  # fmt: skip
+        shown = np.where(of_above > 0.01 * of_above.max(), of_above, np.nan)
+        axes.pcolormesh(edges[0], edges[1], shown.T, cmap="YlOrRd", rasterized=True)
         _contours(axes, edges, of_every)
         axes.set(xlabel=f"Mass of the truck [{unit}]")
         axes.set_ylabel(f"Speed at the pier [{unit_of('speed', system)}]")

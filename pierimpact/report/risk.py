@@ -152,7 +152,8 @@ def case_risk(
         When the case gives no traffic, or size or seed is out of range.
     """
     if case.traffic is None:
-        raise InputError(f"{NEEDED[0]} is missing: a risk needs {', '.join(NEEDED)}")
+        missing = next(key for key in NEEDED if getattr(case.inputs, key) is None)
+        raise InputError(f"{missing} is missing: a risk needs {', '.join(NEEDED)}")
     calculation = calculate(case)
     found = risk(
         case.traffic.traffic,

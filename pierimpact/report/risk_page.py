@@ -170,8 +170,8 @@ def _frequencies(result: CaseRisk) -> Block:
         ]
         rows.append(
             [
-                f"{rate:g}",
-                rounded(1.0 / rate, 3),
+                rounded(rate, 1),
+                f"{1.0 / rate:,.0f}".replace(",", "\u202f"),
                 value_text(value, "force", system),
                 *effects,
                 value_text(simple, "force", system),

@@ -49,7 +49,7 @@ _SPOKEN = {
     "kN": "kilonewtons",
     "MN/m": "meganewtons per metre",
     "MN": "meganewtons",
-    "vehicles/day": "vehicles per day",
+    "veh/day": "vehicles per day",
     "": "",
 }
 

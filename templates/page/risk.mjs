@@ -3,7 +3,7 @@
 import { force, roundUp } from "./chart.mjs";
 
 const ROAD = [4, 201], BRAKING = [3, 9], CELLS = 64, EVENLY = 2000; // numerical, as in Python
-const YEARS = [1e2, 1e6]; // of the curve
+const YEARS = [1e2, 1e5]; // of the curve
 const POINTS = 120;
 const MASSES = [10e3, 20e3, 30e3, 40e3], SPEEDS = [30, 50, 70, 90]; // limits of the classes [kg], [km/h]
 const TXDOT = 1e-3; // hits a year
@@ -57,7 +57,7 @@ export function yearly(values, presampled) {
 
 const sum = (values) => values.reduce((all, value) => all + value, 0);
 
-/** Values by how often they are exceeded: the years between, and the values [MN]. */
+/** Values by how often they are exceeded: the thousands of years between, and the values [MN]. */
 function curve(found, weights) {
   const order = [...found.keys()].sort((a, b) => found[b] - found[a]), x = [], y = [];
   const ratio = (YEARS[1] / YEARS[0]) ** (1 / POINTS);
@@ -65,7 +65,7 @@ function curve(found, weights) {
   for (const n of order) {
     rate += weights[n];
     while (rate > 0 && 1 / rate <= next && next >= YEARS[0]) {
-      x.push(next);
+      x.push(next / 1e3);
       y.push(found[n] / 1e6);
       next /= ratio;
     }
@@ -116,7 +116,7 @@ export function risk({ values, setup: { presampled } }) {
   const hard = curve(mass.map((m, n) => speed[n] * Math.sqrt(stiffness * m)), weights);
   const tons = mass.map((m) => m / 1e3), kmh = speed.map((v) => 3.6 * v);
   const at = (when) => {
-    const place = full.x.findIndex((between) => between <= when * 1.0001);
+    const place = full.x.findIndex((between) => 1e3 * between <= 1.0001 * when);
     return place < 0 ? "—" : force(1e6 * full.y[place]);
   };
   const top = roundUp(Math.max(1.1 * resistance, ...full.y.map((value) => 1.05e6 * value))) / 1e6;
@@ -125,7 +125,7 @@ export function risk({ values, setup: { presampled } }) {
     charts: [
       {
         kind: "lines", title: "How strong once in how many years",
-        x: { label: "Exceeded once in … years", low: YEARS[0], high: YEARS[1], log: true },
+        x: { label: "Exceeded once in … thousand years", low: YEARS[0] / 1e3, high: YEARS[1] / 1e3, log: true },
         y: { label: "Reaction [MN]", low: 0, high: top },
         curves: [{ name: "full model", style: "reaction", ...full }, { name: "v √(k m)", style: "impulse", ...hard }],
         level: { y: resistance / 1e6, words: "resistance" },
