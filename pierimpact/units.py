@@ -255,7 +255,7 @@ QUANTITIES = {
     "rotational stiffness": Quantity(("MN*m/rad", "MN·m/rad"), ("kip*ft/rad", "kip·ft/rad"), 5),
     "traffic volume": Quantity(("vehicle/day", "vehicles/day"), ("vehicle/day", "vehicles/day"), 5),
     "encroachment rate": Quantity(
-        ("1/vehicle/m", "1/(vehicle·m)"), ("1/vehicle/mile", "1/(vehicle·mile)"), 5
+        ("1/vehicle/m", "1/vehicle/m"), ("1/vehicle/mile", "1/vehicle/mile"), 5
     ),
     "mass stiffness": Quantity(("kg/s^2", "kg/s²"), ("lb/s^2", "lb/s²"), 5),
     "damping": Quantity(("kN*s/m", "kN·s/m"), ("kip*s/ft", "kip·s/ft"), 4),

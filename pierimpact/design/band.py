@@ -106,20 +106,8 @@ class ReactionBand:
 
     def sampled(self, index: int) -> Collision:
         """Return one of the sampled collisions."""
-        own, truck = single(self.parameters, index), self.collision.truck
-        engine_spring, body_spring = (
-            CrushSpring(**dict(zip(CrushSpring.__dataclass_fields__, spring[1:], strict=True)))
-            for spring in (own.engine, own.body)
-        )
-        truck = replace(
-            truck,
-            engine_mass=own.engine.mass,
-            body_mass=own.body.mass,
-            engine_spring=engine_spring,
-            body_spring=body_spring,
-            friction_force=own.friction_force,
-            spread={},
-        )
+        own = single(self.parameters, index)
+        truck = truck_of(own, self.collision.truck)
         return replace(self.collision, truck=truck, speed=own.speed)
 
     def average_forces(self, windows: Sequence[float], count: int = 128) -> Array:
@@ -303,6 +291,23 @@ def _each_alone(changed: Array, usual: Array) -> Array:
     count, size = usual.shape
     alone = np.eye(count, dtype=bool)[:, :, None]
     return np.where(alone, changed[:, None], usual[:, None]).reshape(count, count * size)
+
+
+def truck_of(own: Parameters, truck: Truck) -> Truck:
+    """Return a truck with the numbers of one collision, which are known exactly."""
+    engine_spring, body_spring = (
+        CrushSpring(**dict(zip(CrushSpring.__dataclass_fields__, spring[1:], strict=True)))
+        for spring in (own.engine, own.body)
+    )
+    return replace(
+        truck,
+        engine_mass=own.engine.mass,
+        body_mass=own.body.mass,
+        engine_spring=engine_spring,
+        body_spring=body_spring,
+        friction_force=own.friction_force,
+        spread={},
+    )
 
 
 def with_factors(same: Parameters, names: Iterable[str], factors: Array) -> Parameters:

@@ -64,7 +64,7 @@ def risk_csv(result: CaseRisk) -> str:
     """Return the curve as comma-separated values, units in the header.
 
     The share of hits is that which exceeds the reaction; shear and moment are the largest anywhere
-    under it as a static force.
+    that it brings about, by `CaseRisk.effects`.
     """
     system, found = result.case.inputs.units, result.risk
     x = reactions(found, _ROWS)
@@ -181,7 +181,7 @@ def _frequencies(result: CaseRisk) -> Block:
     return Table(
         label="tab-frequencies",
         caption="Reactions by how often they are exceeded, with the band; the largest shear and "
-        "moment under them as static forces; and the force of JCSS.",
+        "moment that they bring about; and the force of JCSS.",
         columns=columns(
             "Times a year",
             decimal("Once in [years]"),

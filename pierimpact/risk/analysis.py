@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.checks import whole
-from pierimpact.collision.groups import select
+from pierimpact.collision.groups import select, single
+from pierimpact.design.band import truck_of
 from pierimpact.design.study import full_model
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.risk.exceedance import Exceedance
@@ -56,8 +57,7 @@ def strikes_of(task: Task, block: int) -> Strikes:
     size = min(BLOCK, task.size - block * BLOCK)
     arrivals = draw(task.traffic, task.trucks, block, task.seed, size, task.tilted)
     there = arrivals.weight > 0.0
-    own = select(arrivals._replace(factors=arrivals.factors.T), there)
-    own = own._replace(factors=own.factors.T)
+    own = select(arrivals, there)
     reaction, by_engine = np.zeros(size), np.zeros(size, dtype=bool)
     if there.any():
         found = full_model(collisions(task.trucks, task.pier, own))
@@ -85,6 +85,14 @@ class Feared(NamedTuple):
     beyond: float  #: share of them whose mass their truck's springs do not stand for [-]
 
 
+class Strike(NamedTuple):
+    """One of the collisions."""
+
+    truck: Truck
+    speed: float  #: at the pier [m/s]
+    reaction: float  #: [N]
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Risk:
     """How often the reaction of a pier exceeds values.
@@ -96,6 +104,7 @@ class Risk:
     trucks: tuple[Truck, ...]
     pier: EquivalentPier
     seed: int
+    tilted: float
     strikes: Strikes  #: of all draws
 
     @property
@@ -112,6 +121,21 @@ class Risk:
     def hard_impact(self) -> Exceedance:
         """Frequencies of the force v √(k m) of JCSS from the same trucks."""
         return Exceedance(self.strikes.hard_impact, self.strikes.weight, self.traffic.departures)
+
+    def nearest(self, reaction: float, count: int) -> list[Strike]:
+        """Return the collisions whose reactions are nearest to one [N], or as many as there are."""
+        apart = np.where(self.strikes.weight > 0.0, abs(self.strikes.reaction - reaction), np.inf)
+        places = np.sort(np.argsort(apart, kind="stable")[:count]).tolist()
+        return [self._strike(place) for place in places if apart[place] < np.inf]
+
+    def _strike(self, place: int) -> Strike:
+        """Return one of the collisions, drawn once more."""
+        block, row = divmod(place, BLOCK)
+        drawn = draw(self.traffic, self.trucks, block, self.seed, row + 1, self.tilted)
+        one = select(drawn, slice(row, row + 1))
+        own = single(collisions(self.trucks, self.pier, one), 0)
+        truck = truck_of(own, self.trucks[int(one.truck[0])])
+        return Strike(truck, own.speed, float(self.strikes.reaction[place]))
 
     def feared(self, reaction: float) -> Feared | None:
         """Return the trucks that bring about reactions above a value [N]; None without any."""
@@ -133,7 +157,7 @@ class Risk:
 
 
 def weighted_quantiles(values: Array, weights: Array) -> tuple[float, float, float]:
-    """Return the values that 5, 50 and 95 % of the weights are at or below."""
+    """Return what 5, 50 and 95 % of the weights are at or below, this project's choice."""
     order = np.argsort(values, kind="stable")
     sums = np.cumsum(weights[order])
     places = np.searchsorted(sums, np.array([0.05, 0.5, 0.95]) * sums[-1])
@@ -192,4 +216,6 @@ def risk(
         parts.append(part)
         progress(len(part.weight))
     strikes = Strikes(*map(np.concatenate, zip(*parts, strict=True)))
-    return Risk(traffic=traffic, trucks=task.trucks, pier=pier, seed=seed, strikes=strikes)
+    return Risk(
+        traffic=traffic, trucks=task.trucks, pier=pier, seed=seed, tilted=tilted, strikes=strikes
+    )

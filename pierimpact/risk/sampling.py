@@ -48,7 +48,7 @@ class Arrivals(NamedTuple):
     speed: Array  #: at the pier; zero where it does not arrive [m/s]
     hard_impact: Array  #: v √(k m) of JCSS [N]
     truck: NDArray[np.int_]  #: which of the trucks
-    factors: Array  #: on the parameters of QUANTITIES, shape (parameters, n) [-]
+    factors: Array  #: on the parameters of QUANTITIES, shape (n, parameters) [-]
 
 
 def draw(
@@ -96,7 +96,7 @@ def draw(
         speed=speed,
         hard_impact=speed * np.sqrt(stiffness * mass),
         truck=which,
-        factors=_factors(trucks, which, of_truck),
+        factors=_factors(trucks, which, of_truck).T,
     )
 
 
@@ -127,7 +127,7 @@ def collisions(trucks: Sequence[Truck], pier: EquivalentPier, arrivals: Arrivals
     The engine has at most half of the mass. All must arrive.
     """
     each = [repeat(Collision(truck, pier, 1.0).parameters, 1) for truck in trucks]
-    found = with_factors(select(reduce(join, each), arrivals.truck), QUANTITIES, arrivals.factors)
+    found = with_factors(select(reduce(join, each), arrivals.truck), QUANTITIES, arrivals.factors.T)
     engine = np.minimum(found.engine.mass, HEAVIEST_ENGINE * arrivals.mass)
     return found._replace(
         engine=found.engine._replace(mass=engine),

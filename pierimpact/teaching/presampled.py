@@ -70,7 +70,7 @@ def solve(power: int = POWER) -> Presampled:
         for row, name in enumerate(QUANTITIES):
             own = which == number
             factors[row, own] = truck.spread[name].factor(points[2 + row, own])
-    arrivals = Arrivals(mass, mass, speed, speed, mass, which, factors)
+    arrivals = Arrivals(mass, mass, speed, speed, mass, which, factors.T)
     found = {
         name: full_model(
             collisions(trucks, EquivalentPier.from_frequency(PIER_MASS, frequency), arrivals)
