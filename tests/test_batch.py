@@ -496,7 +496,7 @@ def test_exit_codes(tmp_path, monkeypatch, capsys, outcomes, code):
     names = "abc"[: len(outcomes)]
     cases = [write_case(tmp_path / f"{name}.yaml") for name in names]
 
-    def write(case, output, docx, on_stage):
+    def write(case, output, docx, kernels, on_stage):
         if error := outcomes[names.index(case.stem)]:
             raise error
         files = (output / f"{case.stem}.{ending}" for ending in ("ipynb", "html", "pdf"))
@@ -530,7 +530,7 @@ def test_one_case_has_no_summary(tmp_path, monkeypatch):
 def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):
     cases = [write_case(tmp_path / f"{name}.yaml") for name in "ab"]
 
-    def write(case, output, docx, on_stage):
+    def write(case, output, docx, kernels, on_stage):
         return Report(Path("x.ipynb"), Path("x.html"), Path("x.pdf"), [], results_of(case))
 
     def fail(rows):

@@ -66,7 +66,7 @@ def test_what_is_printed(monkeypatch, capsys):
     files = Path("a.ipynb"), Path("a.html"), Path("a.pdf")
     results = Results.of(calculate(read_case_file(EXAMPLE).case))
 
-    def made(case, output, docx, on_stage):
+    def made(case, output, docx, kernels, on_stage):
         return Report(*files, ["a letter is missing"], results)
 
     monkeypatch.setattr("pierimpact.report.batch.write_report", made)
@@ -77,7 +77,7 @@ def test_what_is_printed(monkeypatch, capsys):
 
 
 def test_a_failure_is_one_line_and_code_1(monkeypatch, capsys):
-    def fail(case, output, docx, on_stage):
+    def fail(case, output, docx, kernels, on_stage):
         raise ReportError("a.yaml: the notebook failed: ValueError: why; it is kept as x")
 
     monkeypatch.setattr("pierimpact.report.batch.write_report", fail)
@@ -88,7 +88,7 @@ def test_a_failure_is_one_line_and_code_1(monkeypatch, capsys):
 
 
 def test_interrupted(monkeypatch, capsys):
-    def interrupt(case, output, docx, on_stage):
+    def interrupt(case, output, docx, kernels, on_stage):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("pierimpact.report.batch.write_report", interrupt)

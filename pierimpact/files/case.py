@@ -71,6 +71,12 @@ class Case:
         return None if self.superseded_file is None else self.superseded_file.case
 
     @property
+    def annexes(self) -> tuple[str, ...]:
+        """The annexes to be printed: those asked for, and the changes where there are any."""
+        asked = tuple(name for name in self.inputs.annexes if name != "changes")
+        return asked if self.superseded_file is None else (*asked, "changes")
+
+    @property
     def impact_heights(self) -> tuple[float, ...]:
         """Nominal impact heights the case may come to use [m]."""
         height = self.inputs.impact_height

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from pierimpact.plots.style import INK
 
 _FINE = 2  # picture elements a point
-_STEP = (4, 2)  # from one place to the next, across and upward [picture elements]
+_STEP = (3, 1)  # from one place to the next, across and upward [pt]
 _PAD, _NEAR = 1.5, 7.0  # left free around a label; distance beyond which it has a line [pt]
 _PALE = 200.0  # of 255: areas as bright as this may lie under a label
 _SIDE = 0.15  # what a place on the wrong side costs, over what distance costs
@@ -44,7 +44,10 @@ def place(figure: Figure, labels: Sequence[Label]) -> None:
     pixels = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
     pixels = pixels[::-1, :, :3]  # from below, as coordinates are
     ink = pixels @ np.array([0.299, 0.587, 0.114]) < _PALE  # by their luminance
-    taken = np.where(ink, _LINE, 0)
+    rows, columns = (count // _FINE for count in ink.shape)
+    squares = ink[: rows * _FINE, : columns * _FINE].reshape(rows, _FINE, columns, _FINE)
+    taken = np.where(squares.any(axis=(1, 3)), _LINE, 0)
+    figure.set_dpi(72.0)  # a square is a point, and the figure's coordinates are squares
     for label in labels:
         _write(label, taken)
 
@@ -55,7 +58,7 @@ def _write(label: Label, taken: NDArray[np.int_]) -> None:
     text = axes.text(points[0, 0], points[0, 1], label.words, **label.options)
     extent = text.get_window_extent()
     text.remove()
-    size, pad = np.array([extent.width, extent.height]), _PAD * _FINE
+    size, pad = np.array([extent.width, extent.height]), _PAD
     corners = pad + _places(taken > 0, np.ceil(size + 2.0 * pad).astype(int), axes)
     ends = np.clip(axes.transData.transform(points), 0.0, np.array(taken.T.shape) - 1.0)
     nearest = np.clip(ends[:, None], corners, corners + size)
@@ -68,7 +71,7 @@ def _write(label: Label, taken: NDArray[np.int_]) -> None:
     cost = gap + _SIDE * aside
     order = np.argsort(cost, kind="stable")
     tried = np.concatenate((order[:_TRIED], order[:: len(order) // _TRIED + 1]))
-    far = gap > _NEAR * _FINE
+    far = gap > _NEAR
     crossed = taken[_line(nearest[tried], end[tried])].sum(axis=0)
     best = tried[np.argmin(cost[tried] + np.where(far[tried], crossed, 0))]
     line: dict[str, Any] = {}
@@ -79,7 +82,7 @@ def _write(label: Label, taken: NDArray[np.int_]) -> None:
     axes.annotate(
         label.words,
         tuple(points[which[best]]),
-        tuple((corners[best] - end[best]) / _FINE),
+        tuple(corners[best] - end[best]),
         textcoords="offset points",
         annotation_clip=False,
         **{"ha": "left", "va": "bottom", **line, **label.options},

@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from importlib import import_module
 from pathlib import Path
 from threading import Event, Lock
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from tqdm import tqdm
 
@@ -23,8 +23,12 @@ from pierimpact.report.write import (
     put_in_place,
     reason_of,
     stages,
+    start_kernels,
     write_report,
 )
+
+if TYPE_CHECKING:
+    from pierimpact.report.kernel import Kernels
 
 SUMMARY = "summary"  # name of the files of the summary, without ending
 BINDER = "binder"  # name of the file of all sheets in one, without ending
@@ -172,15 +176,14 @@ def _write_all(
                 left -= 1
 
         try:
-            results[case] = _write_one(case, output_dir, docx, on_stage)
+            results[case] = _write_one(case, output_dir, docx, kernels, on_stage)
         finally:
             with lock:
                 bar.update(left)
 
     several = len(cases) > 1
-    if several:
-        import_libraries()
     with (
+        start_kernels(cases, _AT_ONCE) as kernels,
         tqdm(
             total=len(cases) * stages_of_each,
             desc=f"0 of {len(cases)} cases" if several else cases[0].stem,
@@ -190,6 +193,8 @@ def _write_all(
         ThreadPoolExecutor(_AT_ONCE) as executor,
     ):
         try:
+            if several:
+                import_libraries()
             futures = [executor.submit(write, case) for case in cases]
             for done, future in enumerate(as_completed(futures), 1):
                 future.result()
@@ -206,11 +211,11 @@ def _write_all(
 
 
 def _write_one(
-    case: Path, output_dir: Path, docx: bool, on_stage: Callable[[], object]
+    case: Path, output_dir: Path, docx: bool, kernels: "Kernels", on_stage: Callable[[], object]
 ) -> Report | Failure:
     """Return the report or failure of a case."""
     try:
-        return write_report(case, output_dir, docx=docx, on_stage=on_stage)
+        return write_report(case, output_dir, docx=docx, kernels=kernels, on_stage=on_stage)
     except OutputError:
         raise  # it is the same for all cases
     except (InputError, ReportError) as error:

@@ -48,9 +48,17 @@ class _SheetExporter(TemplateExporter):
     own_mime = ""  #: MIME type of outputs that go into the document unchanged
     pandoc_options: tuple[str, ...]
 
+    @default("optimistic_validation")
+    def _default_optimistic_validation(self) -> bool:
+        return True  # once, rather than around each of nbconvert's preprocessors
+
     @default("extra_template_basedirs")
     def _default_extra_template_basedirs(self) -> list[str]:
         return [str(shipped("templates"))]
+
+    def get_prefix_root_dirs(self) -> list[str]:
+        """Return no folders of Jupyter's: what is in them could change or replace a template."""
+        return []
 
     def _preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
         # `jupyter nbconvert --execute` executes here: before it there are no outputs.

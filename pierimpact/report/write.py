@@ -5,16 +5,20 @@ import json
 import logging
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pierimpact.checks import InputError
-from pierimpact.files.case import read_case_file
+from pierimpact.files.case import CaseFile, read_case_file
 from pierimpact.report.results import Results
-from pierimpact.resources import PACKAGE, shipped
+from pierimpact.resources import shipped
+
+if TYPE_CHECKING:
+    from pierimpact.report.kernel import Kernels
 
 #: Modules and classes of the exporters by the endings of their files; slow to import.
 _EXPORTERS = {
@@ -22,12 +26,9 @@ _EXPORTERS = {
     ".pdf": ("pierimpact.report.exporters", "SheetPDFExporter"),
     ".docx": ("pierimpact.report.word", "SheetWordExporter"),
 }
-_KERNEL_ARGUMENTS = [
-    # Lets the kernel, which starts in another folder, import this very package.
-    f"--IPKernelApp.exec_lines=import sys; sys.path.insert(0, {str(PACKAGE.parent)!r})",
-    # An error in a cell is in its output; the interrupt that ends the kernel is none.
-    "--log-level=CRITICAL",
-]
+
+
+_ANNEX = "annex-"  # of the tags of cells, before the name of their annex
 
 
 class ReportError(RuntimeError):
@@ -60,10 +61,16 @@ def report_notebook() -> Path:
 
 
 def stages(docx: bool = False) -> int:
-    """Return the number of stages of a report: one for each cell, and for each document."""
-    notebook = json.loads(report_notebook().read_text(encoding="utf-8"))
-    kinds = [cell["cell_type"] for cell in notebook["cells"]]
-    return kinds.count("code") + 3 + docx  # papermill adds a cell
+    """Return the number of stages of a report: one for each cell of no annex, and each document."""
+    cells = json.loads(report_notebook().read_text(encoding="utf-8"))["cells"]
+    always = [cell for cell in cells if cell["cell_type"] == "code" and not _annex_of(cell)]
+    return len(always) + 3 + docx  # papermill adds a cell
+
+
+def _annex_of(cell: Mapping[str, Any]) -> str:
+    """Return the annex that a cell of the notebook belongs to, or nothing."""
+    tags = (tag for tag in cell["metadata"].get("tags", ()) if tag.startswith(_ANNEX))
+    return next(tags, "").removeprefix(_ANNEX)
 
 
 def write_report(
@@ -71,6 +78,7 @@ def write_report(
     output_dir: str | Path = "reports",
     *,
     docx: bool = False,
+    kernels: "Kernels | None" = None,
     on_stage: Callable[[], object] = lambda: None,
 ) -> Report:
     """Write the report of a case file: NAME.ipynb, .html, .pdf and, if wanted, .docx, all or none.
@@ -85,6 +93,8 @@ def write_report(
         Folder to write to; created if it does not exist.
     docx : bool, optional
         Whether to write the sheet as a Word document too.
+    kernels : Kernels, optional
+        Kernels to take one from, and to leave it with for the next report.
     on_stage : callable, optional
         Called after each of its `stages`, possibly in other threads; an exception from it ends
         the report.
@@ -98,14 +108,17 @@ def write_report(
         When the notebook or a conversion fails; the notebook is kept as NAME.failed.ipynb.
     """
     case_path, output_dir = Path(case_path).absolute(), Path(output_dir).absolute()
-    parameters = read_case_file(case_path).parameters
+    if kernels is None:
+        with start_kernels([case_path]) as own:
+            return write_report(case_path, output_dir, docx=docx, kernels=own, on_stage=on_stage)
+    case_file = read_case_file(case_path)
     name = case_path.stem
     failed = output_dir / f"{name}.failed.ipynb"
     with folder_for(output_dir, name) as folder:
         endings = ("ipynb", "html", "pdf", "docx")[: None if docx else -1]
         executed, *documents = (folder / f"{name}.{ending}" for ending in endings)
         try:
-            notebook = _execute(parameters, case_path.parent, executed, on_stage)
+            notebook = _execute(case_file, case_path.parent, executed, kernels, on_stage)
             results = Results.in_notebook(notebook)
             warnings = convert(notebook, documents, on_stage)
             executed, html, pdf, *word = put_in_place((executed, *documents), output_dir)
@@ -119,38 +132,47 @@ def write_report(
     return Report(executed, html, pdf, warnings, results, *word)
 
 
-def _execute(
-    parameters: dict[str, Any], folder: Path, output: Path, on_stage: Callable[[], object]
-) -> Any:
-    """Execute the notebook in the case file's folder and return it."""
-    papermill = _import_papermill()
-    config = import_module("traitlets.config").Config()
-    config.KernelManager.transport_encryption = "auto"  # or else the kernel prints a warning
-    started = False
+def start_kernels(cases: Sequence[Path], at_once: int = 1) -> "Kernels":
+    """Start kernels for the reports of cases, so many at once, before what takes long to import."""
+    module = import_module("pierimpact.report.kernel")
+    kernels: Kernels = module.Kernels(cases, min(at_once, len(cases)))
+    return kernels
 
-    def on_cell_executed(**_: object) -> None:
+
+def _execute(
+    case_file: CaseFile,
+    folder: Path,
+    output: Path,
+    kernels: "Kernels",
+    on_stage: Callable[[], object],
+) -> Any:
+    """Execute the notebook, without annexes that are not asked for, in the case file's folder."""
+    papermill, started = _import_papermill(), False
+
+    def on_cell_executed(cell: Mapping[str, Any], **_: object) -> None:
         nonlocal started
         started = True
-        on_stage()
+        if not _annex_of(cell):
+            on_stage()
 
     def execute() -> Any:
-        return papermill.execute_notebook(
-            report_notebook(),
-            output,
-            parameters,
-            # Papermill's own cwd is that of the process, which other reports share.
-            resources={"metadata": {"path": str(folder)}},
-            extra_arguments=_KERNEL_ARGUMENTS,
-            kernel_name="python3",
-            progress_bar=False,
-            request_save_on_cell_execute=False,
-            shutdown_kernel="immediate",  # it has nothing to save
-            config=config,
-            on_cell_executed=on_cell_executed,
-        )
+        with kernels.in_folder(folder) as kernel:
+            return papermill.execute_notebook(
+                notebook,
+                output,
+                case_file.parameters,
+                km=kernel,
+                kernel_name="python3",
+                progress_bar=False,
+                request_save_on_cell_execute=False,
+                on_cell_executed=on_cell_executed,
+            )
 
+    notebook = import_module("nbformat").read(report_notebook(), as_version=4)
+    asked = {"", *case_file.case.annexes}
+    notebook.cells = [cell for cell in notebook.cells if _annex_of(cell) in asked]
     with ThreadPoolExecutor(1) as executor:
-        executor.submit(_import_exporters)  # while the kernel works
+        executor.submit(_import_exporters)  # while the kernel starts and works
         try:
             return execute()
         except RuntimeError:
@@ -166,7 +188,7 @@ def convert(
     """Write an executed notebook to files, as what their endings say; return the warnings."""
 
     def write(file: Path) -> list[str]:
-        document, resources = exporter_for(file)().from_notebook_node(notebook)
+        document, resources = exporter_for(file.suffix).from_notebook_node(notebook)
         file.write_bytes(document.encode() if isinstance(document, str) else document)
         on_stage()
         return list(resources.get("warnings", []))
@@ -176,15 +198,18 @@ def convert(
         return [warning for warnings in executor.map(write, files) for warning in warnings]
 
 
-def exporter_for(file: Path) -> Any:
-    """Return the exporter that writes files of this ending."""
-    module, name = _EXPORTERS[file.suffix]
-    return getattr(import_module(module), name)
+@cache
+def exporter_for(ending: str) -> Any:
+    """Return the exporter that writes files of this ending, with its template read."""
+    module, name = _EXPORTERS[ending]
+    exporter = getattr(import_module(module), name)()
+    assert exporter.template
+    return exporter
 
 
 def _import_exporters() -> None:
-    for module, _ in _EXPORTERS.values():
-        import_module(module)
+    for ending in _EXPORTERS:
+        exporter_for(ending)
 
 
 def reason_of(error: Exception) -> str:

@@ -65,15 +65,12 @@ class Sheet:
 
     def _annex(self, name: str, section: type[Section]) -> Any:
         """Return the section of an annex; one that is not asked for makes no block."""
-        return section(self.calculation) if name in self.case.inputs.annexes else _NotAsked()
+        return section(self.calculation) if name in self.case.annexes else _NotAsked()
 
     def annex(self, name: str, title: str) -> Annex:
         """Return the beginning of an annex, one of `ANNEXES`, which the case asks for or not."""
         assert name in ANNEXES
-        asked = name in self.case.inputs.annexes
-        if name == "changes":
-            asked = self.case.superseded is not None
-        return Annex(title=title, printed=asked)
+        return Annex(title=title, printed=name in self.case.annexes)
 
     def results(self) -> Results:
         """Return the results that a summary of several cases is made from."""
