@@ -1,5 +1,6 @@
 """The rules that inputs must meet, and the one-line errors when they do not."""
 
+import datetime
 import math
 import re
 import unicodedata
@@ -25,7 +26,7 @@ def _float(name: str, value: SupportsFloat) -> float:
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} must be a number, got {value!r}") from None
+        raise InputError(f"{name} must be a number, got {brief(value)}") from None
 
 
 def number(name: str, value: SupportsFloat) -> float:
@@ -82,14 +83,15 @@ def whole(name: str, value: SupportsIndex, least: int) -> int:
 def one_of(name: str, value: str, choices: tuple[str, ...]) -> str:
     """Return `value` if it is among `choices`."""
     if value not in choices:
-        raise InputError(f"{name} must be one of {', '.join(choices)}, got {value!r}")
+        raise InputError(f"{name} must be one of {', '.join(choices)}, got {brief(value)}")
     return value
 
 
 def known(name: object, names: Collection[str], kind: str) -> None:
     """Refuse a name that is not among `names`; `kind` says what they are, as "a key of a file"."""
-    if name not in names:
-        raise InputError(f"{brief(name)} is not {kind}{did_you_mean(str(name), names)}")
+    if not isinstance(name, str) or name not in names:
+        hint = did_you_mean(name, names) if isinstance(name, str) else ""
+        raise InputError(f"{brief(name)} is not {kind}{hint}")
 
 
 def did_you_mean(word: str, words: Iterable[str]) -> str:
@@ -101,14 +103,23 @@ def did_you_mean(word: str, words: Iterable[str]) -> str:
 
 def brief(value: object, width: int = 60) -> str:
     """Return `value` as it would be typed, on one line and cut to `width` characters."""
-    text = repr(value)
+    try:
+        text = str(value) if isinstance(value, datetime.date) else repr(value)
+    except ValueError:  # Python prints no whole number of more digits than a few thousand
+        text = "a number of thousands of digits"
+    return shortened(text, width)
+
+
+def shortened(text: str, width: int) -> str:
+    """Return a text on one line, cut to `width` characters."""
+    text = " ".join(text[: 2 * width].split())
     return text if len(text) <= width else text[: width - 1] + "…"
 
 
 def one_line(name: str, value: str) -> str:
     """Return `value` if it is one line of text that prints, whatever stands beside it."""
     if any(unicodedata.category(letter) in _CONTROLS or letter in _MARKS for letter in value):
-        raise InputError(f"{name} must be one line without control characters, got {value!r:.60}")
+        raise InputError(f"{name} must be one line without control characters, got {brief(value)}")
     return value
 
 

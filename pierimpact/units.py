@@ -138,6 +138,8 @@ def parse(name: str, value: object, dimension: str) -> float:
     unit = _unit(expression)
     if unit is None:
         hint = did_you_mean(expression, units.split(", "))
+        if re.match(r",\d", expression):
+            hint = ": decimals have a point, thousands no comma"
         raise InputError(f"{name} must be {words} ({units}), got unknown unit in {shown}{hint}")
     size, dimensions = unit
     if dimensions != _dimensions(dimension):

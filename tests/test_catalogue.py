@@ -100,7 +100,11 @@ def test_a_truck_of_ones_own_loads_by_path(tmp_path):
         ("value = 700\n", "", "engine_mass.value is missing"),
         ("value = 700\n", 'value = "700"\n', "engine_mass.value must be a number, got '700'"),
         ("value = 700\n", "value = nan\n", "engine_mass.value must be finite, got nan"),
-        ("value = 700\n", "value = -700\n", "engine_mass must be positive, got -700"),
+        (
+            "value = 700\n",
+            "value = -700\n",
+            "engine_mass must be from 1.0 to 1.0×10⁶ kg (2.2 to 2.2×10⁶ lb), got '-700 kg'",
+        ),
         ('unit = "kg"', 'unit = "kip"', "engine_mass must be a mass (kg, t, lb), got '700 kip'"),
         ('unit = "kg"', "unit = 3", "engine_mass.unit must be text, got 3"),
         ('value = "road"', 'value = "sky"', "friction_on must be one of road, pier, got 'sky'"),

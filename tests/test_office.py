@@ -158,7 +158,7 @@ def svg_with(inside):
         (ENTITY + SVG, "an SVG without entities of its own"),
         ((ENTITY + SVG).decode().encode("utf-16"), "an SVG without entities"),
         (b'<?xml version="1.0" encoding="klingon"?>' + SVG, "well-formed SVG"),
-        (PNG + bytes(1_000_000), "logo must be at most 1 MB, got 'logo' of more"),
+        (PNG + bytes(1_000_000), "logo 'logo' must be at most 1 MB long"),
     ],
 )
 def test_a_bad_logo_is_one_line(tmp_path, content, message):
@@ -177,7 +177,7 @@ def test_links_within_a_drawing_are_no_links_to_elsewhere(tmp_path):
 def test_a_logo_is_a_file(tmp_path):
     (tmp_path / "logos").mkdir()
     assert one_line_of(write_case(tmp_path, logo="logos")) == (
-        "case.yaml: logo must be a file, got 'logos'"
+        "case.yaml: logo 'logos' cannot be read: Is a directory"
     )
     assert one_line_of(write_case(tmp_path, logo="none.svg")).startswith(
         "case.yaml: logo 'none.svg' cannot be read: No such file"

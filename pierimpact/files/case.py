@@ -3,19 +3,22 @@
 import datetime
 import hashlib
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import yaml
-
-from pierimpact.checks import InputError, brief
+from pierimpact.checks import InputError, shortened
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.files.inputs import Inputs, SectionInputs, read_inputs
+from pierimpact.files.limits import LEAST_PART, POSSIBLE
 from pierimpact.files.office import Logo, read_logo, read_shared_file
+from pierimpact.files.reading import read_text
 from pierimpact.files.traffic import CaseTraffic, traffic_of
 from pierimpact.files.trucks import TruckFile, read_truck_file
+from pierimpact.files.yaml_keys import yaml_keys
 from pierimpact.pier.column import PierColumn, Step
 from pierimpact.pier.sections import (
     CircularSection,
@@ -33,6 +36,7 @@ from pierimpact.symbols import SYMBOLS
 from pierimpact.units import unit_size
 from pierimpact.vehicle.truck import Truck
 
+_MOST = 64_000  # bytes; a longer file is none of ours: this project's choice
 #: Parameters of the report notebook that are no keys of a case file.
 NOTEBOOK_PARAMETERS = ("case_file", "case_sha256", "shared_sha256")
 #: Sections by column_shape.
@@ -128,42 +132,18 @@ def read_case_file(path: str | Path) -> CaseFile:
 def _read(path: Path, *, follow: bool) -> CaseFile:
     """Return a case file; with the one that it supersedes, if any, where `follow` is true."""
     try:
-        content = path.read_bytes()
-        values = _yaml_values(content)
+        content, text = read_text(path, _MOST)
+        values = yaml_keys(text)
         shared = read_shared_file(path.parent)
         if shared is not None:
             own = {key: value for key, value in values.items() if value is not None}
             values = values | shared.values | own
         shared_sha256 = None if shared is None else shared.sha256
         case = _case(values, path.parent, shared_sha256, path.name, follow=follow)
-    except OSError as error:
-        raise InputError(f"{path.name}: cannot be read: {error.strerror}") from None
     except InputError as error:
-        raise InputError(f"{path.name}: {error}") from None
+        raise InputError(f"{shortened(path.name, 100)}: {error}") from None
     sha256 = hashlib.sha256(content).hexdigest()
     return CaseFile(name=path.name, sha256=sha256, values=values, case=case)
-
-
-_COLON = "mapping values are not allowed here"  # what YAML says of a second colon in a line
-
-
-def _yaml_values(content: bytes) -> dict[str, object]:
-    """Return the keys and values of a case file, unchecked."""
-    try:
-        values = yaml.load(content.decode("utf-8-sig"), _Loader)
-    except UnicodeDecodeError:
-        raise InputError("is not UTF-8 text") from None
-    except yaml.MarkedYAMLError as error:
-        line = f"line {error.problem_mark.line + 1}: " if error.problem_mark else ""
-        remedy = ": put text that has a colon in it in quotes" if error.problem == _COLON else ""
-        raise InputError(f"{line}not valid YAML: {error.problem}{remedy}") from None
-    except (yaml.YAMLError, RecursionError, ValueError) as error:
-        reason = str(error).partition("\n")[0]
-        raise InputError(f"not valid YAML: {reason}") from None
-    if not isinstance(values, dict):
-        found = "nothing" if values is None else brief(values)
-        raise InputError(f"must be keys and values (key: value), got {found}")
-    return values
 
 
 def case_from(values: Mapping[str, object], folder: str | Path = ".") -> Case:
@@ -189,11 +169,12 @@ def _case(
 ) -> Case:
     inputs = read_inputs(values)
     truck_file = read_truck_file(inputs.truck, folder)
+    truck = truck_file.truck
     case = Case(
         inputs=inputs,
         given={key: value for key, value in values.items() if value is not None},
         column=_column(inputs),
-        truck=_with_mass(truck_file.truck, inputs.truck_mass),
+        truck=truck if inputs.truck_mass is None else with_mass(truck, inputs.truck_mass),
         truck_file=truck_file,
         traffic=traffic_of(inputs, truck_file, folder),
         logo=None if inputs.logo is None else read_logo(inputs.logo, folder),
@@ -209,14 +190,35 @@ def _case(
                     f"impact_height may not be auto here: by the rule, {error}"
                 ) from None
             raise
+    _refuse_slivers(case)
     return case
+
+
+def _refuse_slivers(case: Case) -> None:
+    """Refuse parts of a column that are too short to be meant, and to be calculated."""
+    column = case.column
+    places = [0.0, *(step.height for step in column.steps), column.height]
+    for number, (below, above) in enumerate(pairwise(places), 1):
+        if above - below < LEAST_PART:
+            raise InputError(
+                f"steps[{min(number, len(column.steps))}].height must be {LEAST_PART:g} m at least "
+                f"from the steps beside it and from the ends, got {above - below:g} m"
+            )
+    for height in case.impact_heights:
+        for name, distance in (("base", height), ("top", column.height - height)):
+            if 0.0 < distance < LEAST_PART:
+                raise InputError(
+                    f"impact_height must be {LEAST_PART:g} m at least from the {name}, got "
+                    f"{distance:g} m"
+                )
 
 
 def _superseded(name: str | None, folder: Path, file_name: str | None) -> CaseFile | None:
     if name is None:
         return None
     path = folder / name
-    if file_name is not None and path.resolve() == (folder / file_name).resolve():
+    own = None if file_name is None else os.path.realpath(folder / file_name)
+    if os.path.realpath(path) == own:
         raise InputError(f"supersedes must be an earlier case file, got {name}, which is this one")
     try:
         return _read(path, follow=False)
@@ -329,21 +331,18 @@ def section_keys(shape: type[Section]) -> dict[str, str]:
     return {SYMBOLS[symbol].key: name for name, symbol in shape.dimensions.items()}
 
 
-def _with_mass(truck: Truck, mass: float | None) -> Truck:
-    if mass is None:
-        return truck
-    try:
-        return truck.loaded_to(mass)
-    except InputError as error:  # the truck calls it mass
-        raise InputError(f"truck_{error}") from None
+def with_mass(truck: Truck, mass: float) -> Truck:
+    """Return a truck with the total mass of a case [kg].
 
-
-class _Loader(yaml.SafeLoader):
-    """YAML's safe loader, for which a key given twice is an error."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        keys = [self.construct_object(key, deep=True) for key, _ in node.value]
-        for index, key in enumerate(keys):
-            if key in keys[:index]:
-                raise InputError(f"{key} is given twice")
-        return super().construct_mapping(node, deep)
+    Raises
+    ------
+    InputError
+        When too little is left for the body.
+    """
+    least = truck.engine_mass + POSSIBLE["body_mass"][0]
+    if mass < least:
+        raise InputError(
+            f"truck_mass must exceed the engine's {truck.engine_mass:g} kg by "
+            f"{POSSIBLE['body_mass'][0]:g} kg at least, got {mass:g} kg"
+        )
+    return truck.loaded_to(mass)

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, TypeVar
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo
 
 from pierimpact.checks import InputError, brief, known, not_negative, one_line, positive
+from pierimpact.files.limits import possible
 from pierimpact.pier.column import POISSON_RATIO
 from pierimpact.pier.equivalent import DAMPING_RATIO
 from pierimpact.symbols import BY_KEY, dimension
@@ -29,14 +30,8 @@ def _length(name: str, value: Any) -> float:
     return parse(name, value, "length")
 
 
-def _parsed(name: str, value: Any) -> float:
-    return parse(name, value, dimension(BY_KEY[name]))
-
-
-def _positive(name: str, value: Any) -> float:
-    if (result := _parsed(name, value)) <= 0.0:
-        raise InputError(f"{name} must be positive, got {brief(value)}")
-    return result
+def _quantity(name: str, value: Any) -> float:
+    return possible(name, parse(name, value, dimension(BY_KEY[name])), value)
 
 
 def _not_negative(name: str, value: Any) -> float:
@@ -58,7 +53,7 @@ def _plain_number(name: str, value: Any) -> float:
 
 
 def _factor(name: str, value: Any) -> float:
-    return positive(name, _plain_number(name, value))
+    return possible(name, positive(name, _plain_number(name, value)), value)
 
 
 def _damping_ratio(name: str, value: Any) -> float:
@@ -74,7 +69,7 @@ def _poisson_ratio(name: str, value: Any) -> float:
 
 
 def _impact_height(name: str, value: Any) -> Any:
-    return value if value == "auto" else _parsed(name, value)
+    return value if value == "auto" else _quantity(name, value)
 
 
 def _text(name: str, value: Any) -> str:
@@ -116,7 +111,7 @@ def _date(name: str, value: Any) -> datetime.date:
 
 Text = Annotated[str, _named(_text, str)]
 Date = Annotated[datetime.date, _named(_date, datetime.date)]
-Positive = Annotated[float, _named(_positive, str)]
+Quantity = Annotated[float, _named(_quantity, str)]
 Factor = Annotated[float, _named(_factor, Annotated[float, Field(gt=0.0)])]
 #: The annexes of the sheet, in its order.
 ANNEXES = (
@@ -143,15 +138,15 @@ class SectionInputs(BaseModel):
         "filled rectangular",
         "free",
     ]
-    column_diameter: Positive | None = None
-    column_width: Positive | None = None
-    column_depth: Positive | None = None
-    column_wall_thickness: Positive | None = None
+    column_diameter: Quantity | None = None
+    column_width: Quantity | None = None
+    column_depth: Quantity | None = None
+    column_wall_thickness: Quantity | None = None
     column_sides: Factor | None = None
-    column_across_flats: Positive | None = None
-    column_area: Positive | None = None
-    column_second_moment: Positive | None = None
-    column_shear_area: Positive | None = None
+    column_across_flats: Quantity | None = None
+    column_area: Quantity | None = None
+    column_second_moment: Quantity | None = None
+    column_shear_area: Quantity | None = None
     modular_ratio: Factor | None = None
     density_ratio: Factor | None = None
 
@@ -227,33 +222,33 @@ class Inputs(SharedInputs, SectionInputs):
     element: Text = "—"
     revision: Text = "—"
     date: Date = Field(default_factory=datetime.date.today)
-    column_height: Positive
-    elastic_modulus: Positive | None = None
-    concrete_strength: Positive | None = None
+    column_height: Quantity
+    elastic_modulus: Quantity | None = None
+    concrete_strength: Quantity | None = None
     poisson_ratio: Annotated[
         float, _named(_poisson_ratio, Annotated[float, Field(ge=0.0, le=0.5)])  # exactly
     ] = POISSON_RATIO
-    density: Positive
+    density: Quantity
     stiffness_factor: Factor | None = None
-    effective_stiffness: Positive | None = None
+    effective_stiffness: Quantity | None = None
     base: EndCondition
     top: EndCondition
-    base_stiffness: Positive | None = None
-    base_rotation_stiffness: Positive | None = None
-    top_stiffness: Positive | None = None
-    top_rotation_stiffness: Positive | None = None
-    top_mass: Positive | None = None
-    embedment: Positive | None = None
+    base_stiffness: Quantity | None = None
+    base_rotation_stiffness: Quantity | None = None
+    top_stiffness: Quantity | None = None
+    top_rotation_stiffness: Quantity | None = None
+    top_mass: Quantity | None = None
+    embedment: Quantity | None = None
     steps: Annotated[tuple[StepInputs, ...], _named(_steps, list[StepInputs])] = ()
     truck: Text
-    truck_mass: Positive | None = None
-    speed: Positive
+    truck_mass: Quantity | None = None
+    speed: Quantity
     impact_height: Annotated[float | Literal["auto"], _named(_impact_height, str)]
     damping_ratio: Annotated[
         float, _named(_damping_ratio, Annotated[float, Field(ge=0.0, lt=1.0)])
     ] = DAMPING_RATIO
-    shear_resistance: Positive | None = None
-    moment_resistance: Positive | None = None
+    shear_resistance: Quantity | None = None
+    moment_resistance: Quantity | None = None
     member_forces: Literal["larger", "beam", "static"] = "larger"
     traffic_volume: Positive | None = None
     truck_share: Annotated[

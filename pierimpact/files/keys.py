@@ -5,9 +5,10 @@ from typing import get_args
 from pydantic import BaseModel
 
 from pierimpact.files.inputs import Inputs
+from pierimpact.files.limits import ends_in
 from pierimpact.files.plausible import USUAL, USUAL_MODULI
 from pierimpact.symbols import BY_KEY, dimension
-from pierimpact.units import DIMENSIONS, Printed, rounded, unit_of, unit_size
+from pierimpact.units import DIMENSIONS
 
 # The meanings of keys that stand for no quantity, and of some that say more than the table of
 # symbols does.
@@ -111,9 +112,4 @@ def usual_for(key: str, system: str) -> str:
     ranges = [USUAL[key]] if key in USUAL else []
     if key == "elastic_modulus":
         ranges = list(USUAL_MODULI.values())
-    return " or ".join(
-        str(Printed(f"{least} to {most}", unit_of(BY_KEY[key].quantity, system)))
-        for ends in ranges
-        for size in [unit_size(BY_KEY[key].quantity, system)]
-        for least, most in [(rounded(end / size, 2) for end in ends)]
-    )
+    return " or ".join(ends_in(BY_KEY[key].quantity, ends, system) for ends in ranges)

@@ -1,6 +1,7 @@
 """What the cases of an office share: `pierimpact.toml` beside a case file, and the logo."""
 
 import base64
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -8,6 +9,7 @@ from xml.parsers import expat
 
 from pierimpact.checks import InputError, brief
 from pierimpact.files.inputs import read_shared
+from pierimpact.files.reading import read_content
 from pierimpact.files.toml_table import read_toml
 
 #: The file, in the folder of the case file, whose values stand for those a case does not give.
@@ -52,7 +54,7 @@ def read_shared_file(folder: Path) -> Shared | None:
         rule; the message is one line that names the file.
     """
     path = folder / SHARED_FILE
-    if not path.is_file():
+    if not os.path.lexists(path):
         return None
     try:
         values, _, sha256 = read_toml(path)
@@ -73,16 +75,11 @@ def read_logo(name: str, folder: str | Path = ".") -> Logo:
         When it is not a regular file of at most 1 MB, or neither PNG nor JPEG nor SVG, or an SVG
         that is not well-formed or not of itself: with a script, an entity or a link to elsewhere.
     """
-    path, shown = Path(folder) / name, brief(name)
+    shown = brief(name)
     try:
-        if path.exists() and not path.is_file():
-            raise InputError(f"logo must be a file, got {shown}")
-        with path.open("rb") as file:
-            content = file.read(_MOST + 1)
-    except OSError as error:
-        raise InputError(f"logo {shown} cannot be read: {error.strerror}") from None
-    if len(content) > _MOST:
-        raise InputError(f"logo must be at most 1 MB, got {shown} of more")
+        content = read_content(Path(folder) / name, _MOST)
+    except InputError as error:
+        raise InputError(f"logo {shown} {error}") from None
     for mime, (start, within) in _IMAGES.items():
         if content.startswith(start):
             if within not in content:

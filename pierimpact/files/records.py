@@ -2,7 +2,6 @@
 
 import csv
 import hashlib
-import io
 import math
 import re
 from dataclasses import dataclass
@@ -11,8 +10,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.checks import InputError, brief, did_you_mean
+from pierimpact.checks import InputError, brief, did_you_mean, shortened
 from pierimpact.collision.records import FEWEST, QUANTITIES
+from pierimpact.files.reading import read_text
 from pierimpact.units import parse
 
 Array = NDArray[np.float64]
@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 _HEADING = re.compile(r"\s*(.*?)\s*\[\s*(.*?)\s*\]\s*")
 _EXAMPLE = "such as: time [ms], contact force [kN]"
 _DIMENSIONS = {"time": "time"} | dict.fromkeys(QUANTITIES, "force")
+_MOST = 4_000_000  # bytes, some 200,000 rows: this project's choice
+_LARGEST = {"time": 1e3, "force": 1e10}  # [s], [N]: this project's choice, beyond any record
 _GAP = 10.0  # times the usual step, from which one is a gap; this project's choice
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*")
 
@@ -49,12 +51,8 @@ def read_record_file(path: str | Path) -> RecordFile:
     """
     path = Path(path)
     try:
-        content = path.read_bytes()
-        quantity, time, force = _columns(content.decode("utf-8-sig"))
-    except OSError as error:
-        raise InputError(f"{path.name}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path.name}: is not UTF-8 text") from None
+        content, text = read_text(path, _MOST)
+        quantity, time, force = _columns(text)
     except InputError as error:
         raise InputError(f"{path.name}: {error}") from None
     sha256 = hashlib.sha256(content).hexdigest()
@@ -72,12 +70,18 @@ def _columns(text: str) -> tuple[str, Array, Array]:
         raise InputError(f"must have a heading, {_EXAMPLE}; got nothing")
     (first, heading), *rest = lines
     separator = next((mark for mark in ";\t" if mark in heading), ",")
-    names, sizes = _heading(first, _cells(heading, separator))
+    names, sizes = _heading(first, _cells(first, heading, separator))
     rows = [(number, _numbers(number, line, separator, names)) for number, line in rest]
     if len(rows) < FEWEST:
         raise InputError(f"must have at least {FEWEST} rows of numbers, got {len(rows)}")
-    values = np.array([row for _, row in rows]) * sizes
     places = [number for number, _ in rows]
+    values = np.array([row for _, row in rows])
+    most = np.array([_LARGEST[_DIMENSIONS[name]] for name in names])
+    for row, column in np.argwhere(np.abs(values) > most / sizes):
+        raise InputError(
+            f"row {places[row]}: {names[column]} is beyond any record, got {values[row, column]:g}"
+        )
+    values *= sizes
     column = names.index("time")
     time, force = values[:, column], values[:, 1 - column]
     _check_times(time, places)
@@ -90,8 +94,13 @@ def _columns(text: str) -> tuple[str, Array, Array]:
     return names[1 - column], time, force
 
 
-def _cells(line: str, separator: str) -> list[str]:
-    return next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True))
+def _cells(row: int, line: str, separator: str) -> list[str]:
+    if '"' not in line:
+        return [cell.lstrip() for cell in line.split(separator)]
+    try:
+        return next(csv.reader([line], delimiter=separator, skipinitialspace=True))
+    except csv.Error as error:
+        raise InputError(f"row {row}: is not CSV: {error}") from None
 
 
 def _heading(row: int, cells: list[str]) -> tuple[list[str], Array]:
@@ -125,7 +134,7 @@ def _heading(row: int, cells: list[str]) -> tuple[list[str], Array]:
 
 def _numbers(row: int, line: str, separator: str, names: list[str]) -> list[float]:
     """Return the numbers of a row."""
-    cells = _cells(line, separator)
+    cells = _cells(row, line, separator)
     if len(cells) != len(names):
         hint = ""
         if separator == "," and len(cells) == 2 * len(names):
@@ -136,6 +145,8 @@ def _numbers(row: int, line: str, separator: str, names: list[str]) -> list[floa
         if not cell.strip():
             raise InputError(f"row {row}: {name} is blank")
         try:
+            if "_" in cell or not cell.isascii():  # which are digits to Python
+                raise ValueError
             number = float(cell)
         except ValueError:
             hint = ": write decimals with a point" if _DECIMAL_COMMA.fullmatch(cell) else ""
@@ -143,7 +154,7 @@ def _numbers(row: int, line: str, separator: str, names: list[str]) -> list[floa
                 f"row {row}: {name} must be a number, got {brief(cell)}{hint}"
             ) from None
         if not math.isfinite(number):
-            raise InputError(f"row {row}: {name} must be finite, got {cell.strip()}")
+            raise InputError(f"row {row}: {name} must be finite, got {shortened(cell.strip(), 40)}")
         numbers.append(number)
     return numbers
 

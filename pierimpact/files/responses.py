@@ -11,13 +11,16 @@ from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError, brief, known, number, one_line, one_of
 from pierimpact.collision.parameters import Collision
 from pierimpact.design.comparison import RESPONSES, Measured, check_response
-from pierimpact.files.case import case_from
+from pierimpact.files.case import case_from, with_mass
 from pierimpact.files.inputs import PHYSICAL_KEYS
+from pierimpact.files.limits import PIER_MASS, PIER_STIFFNESS, possible, within
+from pierimpact.files.reading import read_text
 from pierimpact.files.trucks import read_truck_file
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.symbols import BY_KEY, dimension
 from pierimpact.units import DIMENSIONS, parse
 
+_MOST, _ROWS = 256_000, 300  # bytes, and rows: this project's choice
 _TEXTS = ("case", "source", "status", "remark")
 _PIER = {"pier_mass": "mass", "pier_stiffness": "stiffness"}
 _WITH_PIER = ("truck", "truck_mass", "speed", "damping_ratio")
@@ -52,21 +55,24 @@ def read_responses(path: str | Path) -> list[Measured]:
     """
     path = Path(path)
     try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise InputError(f"{path.name} cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path.name} is not UTF-8 text") from None
+        _, text = read_text(path, _MOST)
+    except InputError as error:
+        raise InputError(f"{path.name} {error}") from None
     units: dict[str, str] = {}
     found: list[Measured] = []
-    for row, cells in enumerate(csv.reader(io.StringIO(text)), 1):
-        try:
+    row = 0
+    try:
+        for row, cells in enumerate(csv.reader(io.StringIO(text)), 1):
             if row == 1:
                 units = _units(cells)
             elif any(map(str.strip, cells)):
+                if len(found) == _ROWS:
+                    raise InputError(f"there must be at most {_ROWS} cases")
                 found.append(_measured(_given(units, cells), units, path.parent))
-        except InputError as error:
-            raise InputError(f"{path.name}, row {row}: {error}") from None
+    except InputError as error:
+        raise InputError(f"{path.name}, row {row}: {error}") from None
+    except csv.Error as error:
+        raise InputError(f"{path.name}, row {row + 1}: is not CSV: {error}") from None
     if not found:
         raise InputError(f"{path.name} must have a row for each case, got none")
     return found
@@ -155,10 +161,17 @@ def _collision(values: Mapping[str, Any], folder: Path) -> Collision:
     for name in (*_PIER, "truck", "speed"):
         if name not in values:
             raise InputError(f"{name} is missing")
-    mass, stiffness = (parse(name, values[name], kind) for name, kind in _PIER.items())
+    mass, stiffness = (
+        within(name, parse(name, values[name], kind), ends, kind, values[name])
+        for (name, kind), ends in zip(_PIER.items(), (PIER_MASS, PIER_STIFFNESS), strict=True)
+    )
     truck = read_truck_file(values["truck"], folder).truck
     if "truck_mass" in values:
-        truck = truck.loaded_to(parse("truck_mass", values["truck_mass"], "mass"))
+        truck = with_mass(truck, _possible("truck_mass", values))
     damping = {name: values[name] for name in values if name == "damping_ratio"}
     pier = EquivalentPier(mass=mass, stiffness=stiffness, **damping)
-    return Collision(truck, pier, parse("speed", values["speed"], "speed"))
+    return Collision(truck, pier, _possible("speed", values))
+
+
+def _possible(name: str, values: Mapping[str, Any]) -> float:
+    return possible(name, parse(name, values[name], dimension(BY_KEY[name])), values[name])

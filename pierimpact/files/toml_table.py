@@ -5,9 +5,10 @@ import tomllib
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pierimpact.checks import InputError
+from pierimpact.checks import InputError, shortened
+from pierimpact.files.reading import read_text
 
-_MOST = 65_536  # bytes; a longer file is none of ours: this project's choice
+_MOST = 64_000  # bytes; a longer file is none of ours: this project's choice
 
 
 class TomlFile(NamedTuple):
@@ -26,19 +27,11 @@ def read_toml(path: Path) -> TomlFile:
     InputError
         When the file cannot be read, is too long, or is not TOML.
     """
+    content, text = read_text(path, _MOST)
     try:
-        with path.open("rb") as file:
-            content = file.read(_MOST + 1)
-        if len(content) > _MOST:
-            raise InputError(f"must be at most {_MOST // 1024} kB")
-        text = content.decode("utf-8-sig")
         table = tomllib.loads(text)
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError("is not UTF-8 text") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"is not valid TOML: {error}") from None
+    except ValueError as error:  # some are no TOMLDecodeError, as of a number too long
+        raise InputError(f"is not valid TOML: {shortened(str(error), 200)}") from None
     except RecursionError:
         raise InputError("is not valid TOML: nested too deeply") from None
     return TomlFile(table, text, hashlib.sha256(content).hexdigest())

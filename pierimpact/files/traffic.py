@@ -6,6 +6,7 @@ from pathlib import Path
 from pierimpact.checks import InputError
 from pierimpact.files.distributions import parse_distribution
 from pierimpact.files.inputs import Inputs
+from pierimpact.files.limits import BRAKING, POSSIBLE
 from pierimpact.files.trucks import TruckFile, read_truck_file, truck_names
 from pierimpact.files.weigh_in_motion import read_weigh_in_motion
 from pierimpact.risk.traffic import (
@@ -67,11 +68,18 @@ def traffic_of(inputs: Inputs, truck_file: TruckFile, folder: Path) -> CaseTraff
         distance=distance,
         width=inputs.exposed_width or LEAST_WIDTH,
         encroachment_rate=inputs.encroachment_rate or ENCROACHMENT_RATE,
-        mass=sample or (parse_distribution("traffic_mass", mass, "mass") if mass else jcss_mass()),
+        mass=sample
+        or (
+            parse_distribution("traffic_mass", mass, "mass", _up_to("truck_mass"))
+            if mass
+            else jcss_mass()
+        ),
         speed=jcss_speed(speed or "motorway")
         if not speed or speed in ROAD_SPEEDS
-        else parse_distribution("traffic_speed", speed, "speed"),
-        deceleration=parse_distribution("traffic_deceleration", braking, "acceleration")
+        else parse_distribution("traffic_speed", speed, "speed", _up_to("speed")),
+        deceleration=parse_distribution(
+            "traffic_deceleration", braking, "acceleration", (0.0, BRAKING)
+        )
         if braking
         else jcss_deceleration(),
         angle=parse_distribution("traffic_angle", angle, "angle", ANGLES)
@@ -79,6 +87,11 @@ def traffic_of(inputs: Inputs, truck_file: TruckFile, folder: Path) -> CaseTraff
         else jcss_angle(),
     )
     return CaseTraffic(traffic=traffic, truck_files=_trucks(inputs, truck_file, folder))
+
+
+def _up_to(key: str) -> tuple[float, float]:
+    """Return what the values of a key may be, from zero on."""
+    return 0.0, POSSIBLE[key][1]
 
 
 def _trucks(inputs: Inputs, truck_file: TruckFile, folder: Path) -> tuple[TruckFile, ...]:

@@ -6,7 +6,17 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from pierimpact.certainty import Certainty
-from pierimpact.checks import InputError, brief, did_you_mean, known, number, one_line, one_of
+from pierimpact.checks import (
+    InputError,
+    brief,
+    did_you_mean,
+    known,
+    number,
+    one_line,
+    one_of,
+    shortened,
+)
+from pierimpact.files.limits import possible
 from pierimpact.files.toml_table import TomlFile, read_toml
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY, dimension
@@ -104,7 +114,7 @@ def _read(path: Path) -> TruckFile:
     try:
         file = read_toml(path)
     except InputError as error:
-        raise InputError(f"truck file {path} {error}") from None
+        raise InputError(f"truck file {shortened(str(path), 200)} {error}") from None
     try:
         return _truck_file(file, path.name)
     except InputError as error:
@@ -163,6 +173,8 @@ def _mass_range(entry: object) -> MassRange:
 def _with_dotted_names(table: Mapping[str, Any]) -> dict[str, Any]:
     """Return the parameters by their names, a spring's as "engine_spring.stiffness"."""
     entries = {key: entry for key, entry in table.items() if key not in SPRINGS}
+    for key in entries:
+        known(key, [name for name in PARAMETERS if "." not in name], "a truck parameter")
     for spring in SPRINGS:
         parameters = table.get(spring)
         if not isinstance(parameters, dict):
@@ -189,7 +201,7 @@ def _parameter(name: str, entry: object) -> Parameter:
         value = given = str(value)
     else:
         given = f"{_number(name, 'value', entry):.15g} {texts['unit']}"
-        value = parse(name, given, kind)
+        value = possible(name, parse(name, given, kind), given)
     status = _certainty(f"{name}.status", texts["status"])
     return Parameter(name, value, given, texts["source"], status, *_spread(name, entry))
 

@@ -10,12 +10,15 @@ from pathlib import Path
 import numpy as np
 
 from pierimpact.checks import InputError, brief, did_you_mean
+from pierimpact.files.limits import POSSIBLE
+from pierimpact.files.reading import read_text
 from pierimpact.risk.traffic import WeighedTrucks
 from pierimpact.units import parse
 
 _HEADING = re.compile(r"\s*(\w+)\s*\[\s*(.*?)\s*\]\s*")
 _EXAMPLE = "such as: mass [t], speed [km/h]"
 _COLUMNS = {"mass": "mass", "speed": "speed"}
+_LIMITS = {"mass": "truck_mass", "speed": "speed"}
 _MOST = 64_000_000  # bytes; this project's choice
 
 
@@ -32,16 +35,8 @@ def read_weigh_in_motion(path: Path) -> WeighedTrucks:
         When the file cannot be read or breaks a rule; the message is one line and names the row.
     """
     try:
-        if not path.is_file():
-            raise InputError("cannot be read: there is no such file")
-        if path.stat().st_size > _MOST:
-            raise InputError(f"must be at most {_MOST // 1_000_000} MB long")
-        content = path.read_bytes()
-        columns = _columns(content.decode("utf-8-sig"))
-    except OSError as error:
-        raise InputError(f"{path.name}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path.name}: is not UTF-8 text") from None
+        content, text = read_text(path, _MOST)
+        columns = _columns(text)
     except InputError as error:
         raise InputError(f"{path.name}: {error}") from None
     mass, speed = (np.array(columns[name]) if name in columns else None for name in _COLUMNS)
@@ -69,7 +64,10 @@ def _columns(text: str) -> dict[str, list[float]]:
         if len(cells) != len(sizes):
             raise InputError(f"row {row}: must have {len(sizes)} columns, got {len(cells)}")
         for (name, size), cell in zip(sizes.items(), cells, strict=True):
-            found[name].append(_positive(row, name, cell) * size)
+            value = _positive(row, name, cell) * size
+            if value > POSSIBLE[_LIMITS[name]][1]:
+                raise InputError(f"row {row}: {name} is beyond any truck’s, got {brief(cell)}")
+            found[name].append(value)
     if not rest:
         raise InputError("must have a row for each truck, got none")
     return found
