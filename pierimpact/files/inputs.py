@@ -34,12 +34,6 @@ def _quantity(name: str, value: Any) -> float:
     return possible(name, parse(name, value, dimension(BY_KEY[name])), value)
 
 
-def _not_negative(name: str, value: Any) -> float:
-    if (result := _parsed(name, value)) < 0.0:
-        raise InputError(f"{name} must not be negative, got {brief(value)}")
-    return result
-
-
 def _share(name: str, value: Any) -> float:
     if not 0.0 < (result := _plain_number(name, value)) <= 1.0:
         raise InputError(f"{name} must lie above 0 to 1, got {result:g}")
@@ -250,13 +244,13 @@ class Inputs(SharedInputs, SectionInputs):
     shear_resistance: Quantity | None = None
     moment_resistance: Quantity | None = None
     member_forces: Literal["larger", "beam", "static"] = "larger"
-    traffic_volume: Positive | None = None
+    traffic_volume: Quantity | None = None
     truck_share: Annotated[
         float | None, _named(_share, Annotated[float, Field(gt=0.0, le=1.0)])
     ] = None
-    distance_from_road: Annotated[float | None, _named(_not_negative, str)] = None
-    exposed_width: Positive | None = None
-    encroachment_rate: Positive | None = None
+    distance_from_road: Quantity | None = None
+    exposed_width: Quantity | None = None
+    encroachment_rate: Quantity | None = None
     traffic_mass: Text | None = None
     traffic_speed: Text | None = None
     traffic_deceleration: Text | None = None
