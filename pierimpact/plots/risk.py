@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 #: The curves: the full model, and the formula of JCSS.
 CURVES = {"full model, 95 % band": BLUE, "v √(k m) of JCSS": ORANGE}
 _POINTS = 300  # of a curve
+DARK = "#5a5a5a"  # grey of words
 _LOWEST = 1e-7  # frequency shown [1/year]
 _CELLS = (48, 40)  # of the map, over mass and over speed
 _SMOOTH = 1.4  # standard deviation by which the map is smoothed [cells]
@@ -142,11 +143,9 @@ def draw_feared(risk: Risk, level: float, system: str) -> str:
             side.tick_params(left=False, bottom=False, labelleft=False, labelbottom=False)
             for spine in side.spines.values():
                 spine.set_visible(False)
-        corner.text(
-            0.0, 0.9, "grey: all that strike\n(lines: 50 and 90 %)", color="#5a5a5a",
-            fontsize=8.0, va="top",
-        )  # fmt: skip
-        corner.text(0.0, 0.3, "red: those above it", color=VERMILION, fontsize=8.0, va="top")
+        place: Any = {"transform": corner.transAxes, "fontsize": 8.0, "va": "top"}
+        corner.text(0.02, 0.95, "grey: all that strike\n(lines: 50 and 90 %)", color=DARK, **place)
+        corner.text(0.02, 0.4, "red: those above", color=VERMILION, **place)
         figure.set_dpi(200)
         return to_svg(figure)
 
