@@ -24,7 +24,7 @@ from pierimpact import load_truck
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import Parameters
 from pierimpact.design import domain
-from pierimpact.design.band import sampled_factors, spreads_of, times_factors
+from pierimpact.design.band import sampled_factors, spreads_of, with_factors
 from pierimpact.design.study import full_model, with_truck
 from pierimpact.files.piers import read_pier_table
 from pierimpact.network.files import write_portfolio
@@ -145,7 +145,7 @@ def strike(bridge: Bridge) -> list[float]:
     spreads = spreads_of(truck)
     factors = sampled_factors(spreads, TRUCKS, bridge.seed)[0][:, :TRUCKS]
     same = with_truck(select(bridge.pier, np.zeros(TRUCKS, dtype=int)), truck)
-    found = full_model(times_factors(same, spreads, factors)).governing
+    found = full_model(with_factors(same, spreads, factors)).governing
     return [float(value) for value in np.quantile(found, QUANTILES)]
 
 

@@ -48,6 +48,21 @@ zeta | \zeta | ratio | damping ratio of the pier | damping_ratio
 V_R | V_\mathrm{R} | force | shear resistance | shear_resistance
 M_R | M_\mathrm{R} | moment | moment resistance | moment_resistance
 
+# The traffic
+N_v | N | traffic volume | traffic volume past the pier | traffic_volume
+p_t | p_\mathrm{T} | ratio | share of trucks in the traffic | truck_share
+d_r | d | length | distance from the edge of the road | distance_from_road
+b_e | b_\mathrm{e} | length | width that the pier offers across the course of a truck, with the truck’s own | exposed_width
+lam_e | \lambda_\mathrm{e} | encroachment rate | chance of leaving the road toward the pier | encroachment_rate
+mu_m | \mu_m | mass | mean mass of the trucks
+mu_V | \mu_V | speed | mean speed of the trucks
+R_R | R_\mathrm{R} | force | resistance, as a reaction
+risk_pier |  |  | frequency of the pier, of 8 t
+traffic_mass |  |  | masses of the trucks that pass | traffic_mass
+traffic_speed |  |  | speeds of the trucks on the road | traffic_speed
+traffic_deceleration |  |  | decelerations of the trucks off the road | traffic_deceleration
+traffic_angle |  |  | angles at which trucks leave the road | traffic_angle
+
 # The truck
 m1 | m_1 | mass | engine mass | engine_mass
 m2 | m_2 | mass | mass of body and cargo | body_mass

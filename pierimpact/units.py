@@ -16,10 +16,10 @@ _DEFINITIONS = """
     m = [length]; mm = 0.001 m; cm = 0.01 m; km = 1000 m
     inch = 0.0254 m = in; ft = 12 inch; yd = 3 ft; mile = 5280 ft = mi
     kg = [mass]; g = 0.001 kg; t = 1000 kg; lb = 0.45359237 kg
-    s = [time]; ms = 0.001 s; minute = 60 s = min; h = 3600 s; Hz = 1 / s
+    s = [time]; ms = 0.001 s; minute = 60 s = min; h = 3600 s; day = 24 h; Hz = 1 / s
     N = kg * m / s ** 2; kN = 1000 N; MN = 1e6 N; GN = 1e9 N
     lbf = 9.80665 lb * m / s ** 2; kip = 1000 lbf
-    rad = [angle]
+    rad = [angle]; deg = 0.017453292519943295 rad; vehicle = [vehicle] = veh
     Pa = N / m ** 2; kPa = 1000 Pa; MPa = 1e6 Pa; GPa = 1e9 Pa
     psi = lbf / inch ** 2; ksi = kip / inch ** 2
     J = N * m; kJ = 1000 J; MJ = 1e6 J; kph = km / h; mph = mile / h
@@ -52,6 +52,12 @@ DIMENSIONS = {
     "frequency": Dimension("Hz", "a frequency", "Hz"),
     "time": Dimension("s", "a time", "ms, s"),
     "energy": Dimension("J", "an energy", "kJ, MJ"),
+    "acceleration": Dimension("m/s^2", "an acceleration", "m/s^2, ft/s^2"),
+    "angle": Dimension("rad", "an angle", "deg, rad"),
+    "traffic volume": Dimension("vehicle/s", "a number of vehicles in a time", "vehicles/day"),
+    "encroachment rate": Dimension(
+        "1/vehicle/m", "a chance per vehicle and length of road", "1/vehicle/m, 1/vehicle/km"
+    ),
     "momentum": Dimension("N*s", "a momentum", "kN*s, kg*m/s"),
 }
 
@@ -59,7 +65,7 @@ _LONGEST = 200  # characters of a quantity: this project's choice
 _DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _NUMBER = re.compile(rf"\s*([-+]?(?:{_DIGITS}|(?:nan|inf)\b))\s*(.*?)\s*", re.ASCII)
 _FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?[1-9])?"
-_EXPRESSION = re.compile(rf"{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
+_EXPRESSION = re.compile(rf"(?:1?\s*/\s*)?{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
 _MARKS = str.maketrans({"·": "*", "²": "^2", "³": "^3", "⁴": "^4", "⁶": "^6"})
 # Feet and inches as on drawings: 24'-6 1/2", 24 ft 6.5 in, 6', 36", 3 1/2 in.
 _MIXED = r"(\d+(?:\.\d*)?|\.\d+|(?:\d+[\s-]+)?\d+/\d+)"
@@ -90,6 +96,7 @@ def _unit(expression: str) -> tuple[float, dict[str, float]] | None:
     if not _EXPRESSION.fullmatch(expression):
         return None
     expression = re.sub(r"([A-Za-z])(-?\d)", r"\1^\2", expression)
+    expression = re.sub(r"^\s*/", "1/", expression)
     try:
         size = (1.0 * _registry().parse_units(expression)).to_base_units()
     except (pint.PintError, AttributeError):  # an undefined unit is an AttributeError to pint
@@ -206,7 +213,8 @@ def pattern(dimension: str) -> str:
     )
     power = r"(?:(?:\^|\*\*)?-?[1-9]|[²³⁴⁶])"
     factor = rf"(?:{some}){power}?"
-    units = [rf"(?:{some}){power}", rf"{factor}(?:\s*[*/· ]\s*{factor}){{1,5}}"]
+    more = rf"(?:\s*[*/· ]\s*{factor})"
+    units = [rf"(?:{some}){power}", rf"{factor}{more}{{1,5}}", rf"1?\s*/\s*{factor}{more}{{0,5}}"]
     if fitting:
         units.insert(0, one)
     ways = [rf"[-+]?{_DIGITS}\s*(?:{'|'.join(units)})"]
@@ -250,6 +258,10 @@ QUANTITIES = {
     "flexibility": Quantity(("m/MN", "m/MN"), ("ft/kip", "ft/kip"), 5),
     "stiffness": Quantity(("MN/m", "MN/m"), ("kip/ft", "kip/ft"), 5),
     "rotational stiffness": Quantity(("MN*m/rad", "MN·m/rad"), ("kip*ft/rad", "kip·ft/rad"), 5),
+    "traffic volume": Quantity(("vehicle/day", "vehicles/day"), ("vehicle/day", "vehicles/day"), 5),
+    "encroachment rate": Quantity(
+        ("1/vehicle/m", "1/vehicle/m"), ("1/vehicle/mile", "1/vehicle/mile"), 5
+    ),
     "mass stiffness": Quantity(("kg/s^2", "kg/s²"), ("lb/s^2", "lb/s²"), 5),
     "damping": Quantity(("kN*s/m", "kN·s/m"), ("kip*s/ft", "kip·s/ft"), 4),
     "frequency": Quantity(("Hz", "Hz"), ("Hz", "Hz"), 4),

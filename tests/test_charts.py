@@ -18,7 +18,7 @@ from pierimpact.teaching.scenario import EXAMPLE, Scenario
 from pierimpact.teaching.variables import VARIABLES
 from pierimpact.vehicle.spread import Uniform
 
-CHARTS = ("pier", "reduction", "design", "sensitivity")
+CHARTS = ("pier", "reduction", "design", "sensitivity", "risk")
 KMH = 1.0 / 3.6
 
 

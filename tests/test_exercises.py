@@ -83,6 +83,11 @@ ANSWERS = {
         lambda k, ku: k / ku,
         "the parameters of the truck you design for, with their source",
     ),
+    "risk": (
+        lambda trucks, ten, stretch, years: trucks * 365 * ten**-10 * stretch * years,
+        lambda V, a, s: math.sqrt((V * KMH) ** 2 - 2 * a * s),
+        lambda between, life: 1 - math.exp(-life / between),
+    ),
 }
 
 

@@ -34,7 +34,7 @@ OPTIONS = (
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 )  # fmt: skip
 PATIENCE = 120  # only a page that hangs takes longer [s]
-EXPLORERS = ("collision", "spectra", "full", "pier", "reduction", "design", "sensitivity")
+EXPLORERS = ("collision", "spectra", "full", "pier", "reduction", "design", "sensitivity", "risk")
 RANGE = {"low": 5.0, "high": 180.0}
 PIER = {"mass": pages.PIER_MASS, "dampingRatio": 0.05}
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[1] / "pierimpact"
-FOLDERS = ("vehicle", "pier", "collision", "design", "files", "network", "report")
+FOLDERS = ("vehicle", "pier", "collision", "design", "files", "network", "report", "risk")
 MODULES = sorted(path for folder in FOLDERS for path in (PACKAGE / folder).rglob("*.py"))
 
 # What says where a number comes from, and how sure it is for that.

@@ -15,7 +15,7 @@ from pierimpact.teaching.scenario_files import case_text, truck_text
 from pierimpact.teaching.variables import CRUSH, VARIABLES
 from pierimpact.units import parse
 
-EXPLORERS = ("collision", "pier", "reduction", "spectra", "design", "sensitivity", "full")
+EXPLORERS = ("collision", "pier", "reduction", "spectra", "design", "sensitivity", "full", "risk")
 
 
 @pytest.mark.parametrize("name", EXPLORERS)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pierimpact
 from pierimpact.checks import InputError
-from pierimpact.cli import cases, files, fit, network, teach
+from pierimpact.cli import cases, files, fit, network, risk, teach
 from pierimpact.cli.ending import drop_output, print_anything, signals_as_interrupts
 from pierimpact.cli.terminal import complain, defect
 from pierimpact.files.write import written
@@ -71,6 +71,7 @@ def parser() -> argparse.ArgumentParser:
     cases.add_compare(commands)
     network.add_portfolio(commands)
     network.add_inventory(commands)
+    risk.add_risk(commands)
     files.add_trucks(commands)
     files.add_schema(commands)
     fit.add_fit(commands)

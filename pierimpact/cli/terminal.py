@@ -29,14 +29,14 @@ def needs(what: str, error: ModuleNotFoundError) -> int:
 
 
 @contextmanager
-def progress_bar(unit: str) -> Iterator[Callable[[int], object]]:
+def progress_bar(unit: str, total: int | None = None) -> Iterator[Callable[[int], object]]:
     """Give the update of a progress bar on a terminal, where tqdm is installed."""
     try:
         from tqdm import tqdm
     except ModuleNotFoundError:
         yield lambda count: None
         return
-    with tqdm(unit=f" {unit}", disable=None, leave=False) as bar:
+    with tqdm(total=total, unit=f" {unit}", disable=None, leave=False) as bar:
         yield bar.update
 
 

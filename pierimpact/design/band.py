@@ -106,20 +106,8 @@ class ReactionBand:
 
     def sampled(self, index: int) -> Collision:
         """Return one of the sampled collisions."""
-        own, truck = single(self.parameters, index), self.collision.truck
-        engine_spring, body_spring = (
-            CrushSpring(**dict(zip(CrushSpring.__dataclass_fields__, spring[1:], strict=True)))
-            for spring in (own.engine, own.body)
-        )
-        truck = replace(
-            truck,
-            engine_mass=own.engine.mass,
-            body_mass=own.body.mass,
-            engine_spring=engine_spring,
-            body_spring=body_spring,
-            friction_force=own.friction_force,
-            spread={},
-        )
+        own = single(self.parameters, index)
+        truck = truck_of(own, self.collision.truck)
         return replace(self.collision, truck=truck, speed=own.speed)
 
     def average_forces(self, windows: Sequence[float], count: int = 128) -> Array:
@@ -193,7 +181,9 @@ def reaction_band(
     a, b = sampled_factors(spreads, max(size, base), seed)
     other, own = b[:, :base], a[:, :base]
     parts = (np.ones((count, 1)), _ends(spreads), a[:, :size], other, _each_alone(other, own))
-    collisions = _collisions(collision.parameters, spreads, np.concatenate(parts, axis=1))
+    factors = np.concatenate(parts, axis=1)
+    same = repeat(collision.parameters, factors.shape[1])
+    collisions = with_factors(same, spreads, factors)
     reactions = full_model(collisions)
     starts = np.cumsum([part.shape[1] for part in parts])
     nominal, ends, drawn, others, mixed = np.split(reactions.governing, starts[:-1])
@@ -233,7 +223,9 @@ def one_at_a_time(collision: Collision, spreads: Mapping[str, Spread]) -> Reacti
     Reactions
         Arrays of shape (n, 2), the lower end first.
     """
-    reactions = full_model(_collisions(collision.parameters, spreads, _ends(spreads)))
+    ends = _ends(spreads)
+    same = repeat(collision.parameters, ends.shape[1])
+    reactions = full_model(with_factors(same, spreads, ends))
     return Reactions(*(values.reshape(-1, 2) for values in reactions))
 
 
@@ -301,24 +293,36 @@ def _each_alone(changed: Array, usual: Array) -> Array:
     return np.where(alone, changed[:, None], usual[:, None]).reshape(count, count * size)
 
 
-def _collisions(nominal: Parameters, spreads: Iterable[str], factors: Array) -> Parameters:
-    """Return collisions with each of the parameters times its factor, shape (parameters, n)."""
-    return times_factors(repeat(nominal, factors.shape[1]), spreads, factors)
+def truck_of(own: Parameters, truck: Truck) -> Truck:
+    """Return a truck with the numbers of one collision, which are known exactly."""
+    engine_spring, body_spring = (
+        CrushSpring(**dict(zip(CrushSpring.__dataclass_fields__, spring[1:], strict=True)))
+        for spring in (own.engine, own.body)
+    )
+    return replace(
+        truck,
+        engine_mass=own.engine.mass,
+        body_mass=own.body.mass,
+        engine_spring=engine_spring,
+        body_spring=body_spring,
+        friction_force=own.friction_force,
+        spread={},
+    )
 
 
-def times_factors(same: Parameters, spreads: Iterable[str], factors: Array) -> Parameters:
-    """Return collisions with each of the parameters times its factor.
+def with_factors(same: Parameters, names: Iterable[str], factors: Array) -> Parameters:
+    """Return collisions with each of the named parameters times its factor.
 
     Parameters
     ----------
     same : Parameters
-        Collisions, arrays of shape (n,).
-    spreads : iterable of str
-        The parameters that a factor is given for.
+        The n collisions.
+    names : iterable of str
+        Parameters of the truck, or "speed".
     factors : ndarray, shape (parameters, n)
         Their factors [-].
     """
-    by_name = dict(zip(spreads, factors, strict=True))
+    by_name = dict(zip(names, factors, strict=True))
 
     def spring(mass: str, law: str, own: Spring) -> Spring:
         names = (mass, *(f"{law}.{name}" for name in CrushSpring.__dataclass_fields__))

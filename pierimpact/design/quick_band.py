@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import Parameters
-from pierimpact.design.band import LEVELS, sampled_factors, times_factors
+from pierimpact.design.band import LEVELS, sampled_factors, with_factors
 from pierimpact.design.study import predictions
 from pierimpact.vehicle.spread import Spread
 
@@ -48,7 +48,7 @@ def quick_band(parameters: Parameters, reactions: Array, spreads: Mapping[str, S
     for first in range(0, len(reactions), _AT_ONCE):
         part = np.arange(first, min(first + _AT_ONCE, len(reactions)))
         each = np.repeat(part, SIZE + 1)
-        sampled = times_factors(select(parameters, each), spreads, np.tile(with_nominal, len(part)))
+        sampled = with_factors(select(parameters, each), spreads, np.tile(with_nominal, len(part)))
         found = predictions(sampled, "long").governing.reshape(len(part), SIZE + 1)
         ends[:, part] = np.quantile(found[:, 1:] / found[:, :1], (low, high), axis=1)
     return ends * reactions

@@ -17,6 +17,7 @@ from pierimpact.files.inputs import Inputs, SectionInputs, read_inputs
 from pierimpact.files.limits import LEAST_PART, POSSIBLE
 from pierimpact.files.office import Logo, read_logo, read_shared_file
 from pierimpact.files.reading import read_text
+from pierimpact.files.traffic import CaseTraffic, traffic_of
 from pierimpact.files.trucks import TruckFile, read_truck_file
 from pierimpact.files.yaml_keys import yaml_keys
 from pierimpact.pier.column import PierColumn, Step
@@ -62,6 +63,7 @@ class Case:
     column: PierColumn
     truck: Truck  #: with the mass of the case
     truck_file: TruckFile  #: with the source and status of each parameter
+    traffic: CaseTraffic | None = None
     logo: Logo | None = None
     #: SHA-256 of the `pierimpact.toml` that gave some of the values; None where there is none.
     shared_sha256: str | None = None
@@ -179,6 +181,7 @@ def _case(
         column=column_of(inputs),
         truck=loaded(truck_file.truck, inputs.truck_mass),
         truck_file=truck_file,
+        traffic=traffic_of(inputs, truck_file, folder),
         logo=None if inputs.logo is None else read_logo(inputs.logo, folder),
         shared_sha256=shared_sha256,
         superseded_file=_superseded(inputs.supersedes, folder, file_name) if follow else None,

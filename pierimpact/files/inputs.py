@@ -34,6 +34,12 @@ def _quantity(name: str, value: Any) -> float:
     return possible(name, parse(name, value, dimension(BY_KEY[name])), value)
 
 
+def _share(name: str, value: Any) -> float:
+    if not 0.0 < (result := _plain_number(name, value)) <= 1.0:
+        raise InputError(f"{name} must lie above 0 to 1, got {result:g}")
+    return result
+
+
 def _plain_number(name: str, value: Any) -> float:
     if isinstance(value, bool | str):
         raise InputError(f"{name} must be a plain number without unit, got {brief(value)}")
@@ -238,6 +244,19 @@ class Inputs(SharedInputs, SectionInputs):
     shear_resistance: Quantity | None = None
     moment_resistance: Quantity | None = None
     member_forces: Literal["larger", "beam", "static"] = "larger"
+    traffic_volume: Quantity | None = None
+    truck_share: Annotated[
+        float | None, _named(_share, Annotated[float, Field(gt=0.0, le=1.0)])
+    ] = None
+    distance_from_road: Quantity | None = None
+    exposed_width: Quantity | None = None
+    encroachment_rate: Quantity | None = None
+    traffic_mass: Text | None = None
+    traffic_speed: Text | None = None
+    traffic_deceleration: Text | None = None
+    traffic_angle: Text | None = None
+    weigh_in_motion: Text | None = None
+    traffic_trucks: Annotated[tuple[str, ...], _named(_texts, list[str])] = ()
     assumed: Annotated[dict[str, str], _named(_texts_by_key, dict[str, str])] = {}
     sources: Annotated[dict[str, str], _named(_texts_by_key, dict[str, str])] = {}
     notes: Annotated[tuple[str, ...], _named(_texts, list[str])] = ()

@@ -32,6 +32,10 @@ _WORDS = {
     "truck": "truck of the catalogue, or a truck file of your own (.toml)",
     "member_forces": "member forces that are checked: the larger of both methods, those of the "
     "column as a beam, or those of the static reaction",
+    "weigh_in_motion": "CSV file of weighed trucks, mass and perhaps speed, from the folder of "
+    "this file; in place of traffic_mass",
+    "traffic_trucks": "trucks of the traffic, each for the masses that it stands for; this case’s "
+    "and those of the catalogue if left out",
     "assumed": "keys whose values no source gives, each with the reason for its value",
     "sources": "where the values of keys are from",
     "notes": "notes of your own, printed with the inputs",
@@ -49,6 +53,16 @@ _MORE = {
     "effective_stiffness": "in place of stiffness_factor",
     "impact_height": "or auto: both heights of the rule, the larger reaction governs",
     "truck_mass": "if it is not that of the truck file",
+    "traffic_volume": "on the lanes from which vehicles may come to it; for `pierimpact risk`, as "
+    "are those that follow",
+    "exposed_width": "2.5 m of JCSS if left out",
+    "encroachment_rate": "1e-10 1/vehicle/m of JCSS if left out",
+    "traffic_mass": "a distribution of scipy.stats, such as lognorm(s=0.5, scale=18 t), or "
+    "normal(mean=20 t, sd=12 t) from 3.5 t; that of JCSS if left out",
+    "traffic_speed": "a distribution, or a class of road of JCSS: motorway, urban or courtyard; "
+    "motorway if left out",
+    "traffic_deceleration": "a distribution; that of JCSS if left out",
+    "traffic_angle": "a distribution; that of JCSS if left out",
     "shear_resistance": "without it shear is not checked",
     "moment_resistance": "without it moment is not checked",
 }

@@ -41,11 +41,17 @@ POSSIBLE = {
     "speed": (0.1, 150.0),
     "impact_height": (0.0, 50.0),
     **dict.fromkeys(("shear_resistance", "moment_resistance"), (100.0, 1e12)),
+    "traffic_volume": (1.0 / 86400.0, 1e7 / 86400.0),
+    "distance_from_road": (0.0, 1e3),
+    "exposed_width": (0.1, 100.0),
+    "encroachment_rate": (1e-15, 1e-4),
     **dict.fromkeys(("engine_mass", "body_mass"), (1.0, 1e6)),
     "friction_force": (0.0, 1e9),
     **{f"engine_spring.{name}": ends for name, ends in _SPRING.items()},
     **{f"body_spring.{name}": ends for name, ends in _SPRING.items()},
 }
+#: Most that a deceleration off the road may be [m/s²]: this project's choice.
+BRAKING = 100.0
 #: Of a pier given as one degree of freedom: mass [kg] and stiffness [N/m]; this project's choice.
 PIER_MASS, PIER_STIFFNESS = (1.0, 1e9), (1e3, 1e13)
 #: Least distance of the impact from the ends of the column, and of its steps from each other and

@@ -68,6 +68,21 @@ Check
 # moment_resistance | 7 MN*m | 5000 kip*ft
 # member_forces | larger
 
+Traffic, from which `pierimpact risk` says how often the pier is struck, and how hard
+# traffic_volume | 20000 vehicles/day
+# truck_share | 0.15
+# distance_from_road | 6 m | 20 ft
+# exposed_width | 3.5 m | 12 ft
+# encroachment_rate | 1e-10 1/vehicle/m | 1.6e-7 1/vehicle/mile
+# traffic_mass | lognormal(mean=18 t, sd=10 t) from 3.5 t | lognormal(mean=40000 lb, sd=22000 lb) \
+from 8000 lb
+# traffic_speed | motorway
+# traffic_deceleration | lognormal(mean=4 m/s^2, sd=1.3 m/s^2) | lognormal(mean=13 ft/s^2, \
+sd=4 ft/s^2)
+# traffic_angle | rayleigh(scale=8 deg)
+# weigh_in_motion | trucks.csv
+# traffic_trucks | [single-unit-8t, tractor-trailer-36t]
+
 Where the values are from
 # notes | [A note of your own]
 # sources | {speed: posted limit}

@@ -32,6 +32,11 @@ USUAL = {
     "damping_ratio": (0.005, 0.2),
     "shear_resistance": (50e3, 100e6),
     "moment_resistance": (50e3, 500e6),
+    "traffic_volume": (100.0 / 86400.0, 200e3 / 86400.0),
+    "truck_share": (0.01, 1.0),
+    "distance_from_road": (0.3, 30.0),
+    "exposed_width": (2.5, 20.0),
+    "encroachment_rate": (1e-12, 1e-8),
 }
 #: The elastic modulus that is usual up to a density, concrete and the like below steel [Pa]: this
 #: project's judgement, as is the density between them [kg/m³].

@@ -5,7 +5,8 @@ collision of some values, `spectrum` and `history` what is calculated with them;
 design procedure, translated from Python. `chart`, `picture` and `figures` draw, `sentences` says it
 in words, `controls` are the sliders. `explorer` joins them to the explorer of a collision, and
 `charts` to one of charts, each of which has a module of its own: `shape`, `reduction`,
-`reactions` and `influences`. `widget` puts either into a notebook. They are joined into one script.
+`reactions`, `influences` and `risk`. `widget` puts either into a notebook. They are joined into one
+script.
 """
 
 import re
@@ -35,6 +36,7 @@ EXPLORER = (
 #: Those of all explorers in a notebook.
 WIDGET = (
     *EXPLORER, "figures", "procedure", "shape", "reduction", "reactions", "influences",
+    "risk",
     "charts", "widget",
 )  # fmt: skip
 
@@ -46,6 +48,8 @@ _SPOKEN = {
     "m": "metres",
     "kN": "kilonewtons",
     "MN/m": "meganewtons per metre",
+    "MN": "meganewtons",
+    "veh/day": "vehicles per day",
     "": "",
 }
 

@@ -47,6 +47,14 @@ class Scenario:
         Equivalent mass [kg] and frequency [Hz], where they are given instead of a column.
     engine_mass, friction_force and the crush-law parameters : float
         Of the truck; the reference truck's by default.
+    traffic_volume, truck_share, distance_from_road : float
+        Of the traffic beside the pier: vehicles in a time [1/s], share of trucks [-], distance [m].
+    mean_mass, mean_speed : float
+        Of its trucks [kg], [m/s].
+    resistance : float
+        Reaction that the pier resists [N].
+    risk_pier : str
+        Pier of the risk, by its frequency.
 
     Raises
     ------
@@ -76,6 +84,13 @@ class Scenario:
     body_plateau_length: float = REFERENCE.body_spring.plateau_length
     body_stiffness: float = REFERENCE.body_spring.stiffness
     body_unloading_stiffness: float = REFERENCE.body_spring.unloading_stiffness
+    traffic_volume: float = 20e3 / 86400.0
+    truck_share: float = 0.15
+    distance_from_road: float = 6.0
+    mean_mass: float = 20e3
+    mean_speed: float = 80.0 / 3.6
+    resistance: float = 5e6
+    risk_pier: str = "30 Hz"
 
     @cached_property
     def truck(self) -> Truck:

@@ -90,4 +90,11 @@ VARIABLES = {
     "pier_frequency": Variable(SYMBOLS["fp"], "Hz", 2.0, 200.0, 0.01, log=True),
     "pier_mass": Variable(SYMBOLS["mp"], "t", 0.5, 100.0, 0.01, log=True),
     **CRUSH,
+    "traffic_volume": Variable(SYMBOLS["N_v"], "veh/day", 1e3, 1e5, 0.01, log=True),
+    "truck_share": Variable(SYMBOLS["p_t"], low=0.02, high=0.5, step=0.01),
+    "distance_from_road": Variable(SYMBOLS["d_r"], "m", 0.0, 20.0, 0.5),
+    "mean_mass": Variable(SYMBOLS["mu_m"], "t", 5.0, 35.0, 0.5),
+    "mean_speed": Variable(SYMBOLS["mu_V"], "km/h", 30.0, 110.0, 1.0),
+    "resistance": Variable(SYMBOLS["R_R"], "MN", 0.5, 15.0, 0.1),
+    "risk_pier": Variable(SYMBOLS["risk_pier"], choices=("10 Hz", "30 Hz", "100 Hz")),
 }

@@ -1,6 +1,6 @@
 """The explorers of the teaching notebooks: `widgets.collision()` and its siblings."""
 
-from pierimpact.teaching import browser
+from pierimpact.teaching import browser, presampled
 from pierimpact.teaching.explorer import CollisionExplorer, Explorer
 from pierimpact.teaching.scenario import EXAMPLE
 from pierimpact.teaching.variables import CRUSH
@@ -99,4 +99,18 @@ def sensitivity() -> Explorer:
         symbols=browser.symbols_data("fp", "kp", "mp"),
         parameters=browser.parameters_data(),
         change=CHANGE,
+    )
+
+
+def risk() -> Explorer:
+    """Explore how often a pier is struck too hard by the traffic, and by which trucks."""
+    return Explorer(
+        title="Reactions by how often they are exceeded, and the trucks that bring them about",
+        controls=[
+            *("traffic_volume", "truck_share", "distance_from_road", "mean_mass", "mean_speed"),
+            *("resistance", "risk_pier"),
+        ],
+        height=52,
+        kind="risk",
+        presampled=presampled.data(),
     )

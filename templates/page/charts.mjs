@@ -5,10 +5,11 @@ import { barsHeight, drawBars, drawLines } from "./figures.mjs";
 import { influences } from "./influences.mjs";
 import { reactions } from "./reactions.mjs";
 import { reduction } from "./reduction.mjs";
+import { risk } from "./risk.mjs";
 import { collisionOf, refusal } from "./scenario.mjs";
 import { shape } from "./shape.mjs";
 
-const KINDS = { influences, reactions, reduction, shape };
+const KINDS = { influences, reactions, reduction, risk, shape };
 
 /**
  * What an explorer of charts shows of some values, in SI units: { refusal }, or { charts: [{ kind:

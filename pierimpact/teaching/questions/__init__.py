@@ -6,7 +6,7 @@ from pierimpact.checks import one_of
 from pierimpact.teaching.checker import Question
 from pierimpact.teaching.lesson import Lesson
 from pierimpact.teaching.numbers import Numbers, same_name
-from pierimpact.teaching.questions import collision, design, limits, pier, reduction, spectra
+from pierimpact.teaching.questions import collision, design, limits, pier, reduction, risk, spectra
 
 #: The lessons by name, in the order of their notebooks.
 LESSONS: dict[str, Lesson] = {
@@ -16,6 +16,7 @@ LESSONS: dict[str, Lesson] = {
     "spectra": spectra.LESSON,
     "design": design.LESSON,
     "limits": limits.LESSON,
+    "risk": risk.LESSON,
 }
 
 

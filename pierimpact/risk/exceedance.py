@@ -1,0 +1,96 @@
+"""How often a value is exceeded, with a confidence band, from draws that count with a weight.
+
+With weights w_i the frequency is ν Σ w_i / n over the draws that exceed. Its band is that of a
+gamma distribution of the same mean and variance, whose upper end counts one more draw, of the
+largest weight. Without weights, and for rare values, that is the exact band of a Poisson count; it
+is the band of M. P. Fay and E. J. Feuer, Statistics in Medicine 16 (1997), from memory, with the
+variance of a mean of n draws in place of that of a Poisson count.
+"""
+
+import math
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pierimpact.checks import positive
+
+Array: TypeAlias = NDArray[np.float64]
+
+#: Chance that a band holds the frequency: this project's choice.
+CONFIDENCE = 0.95
+
+
+class Estimate(NamedTuple):
+    """An estimate with its confidence band, floats or arrays of one shape."""
+
+    value: Array
+    low: Array
+    high: Array
+
+
+class Exceedance:
+    """The frequencies at which a quantity exceeds values.
+
+    Parameters
+    ----------
+    values, weights : ndarray, shape (n,)
+        Of the draws; a weight of zero is a draw that does not count [-].
+    frequency : float
+        Frequency ν of all events that are drawn from [1/s].
+    """
+
+    def __init__(self, values: Array, weights: Array, frequency: float) -> None:
+        counts = weights > 0.0
+        order = np.argsort(-values[counts], kind="stable")
+        self.frequency, self.size = frequency, len(values)
+        self.values = values[counts][order]  #: that count, the largest first
+        self.weights = weights[counts][order]
+        none = np.zeros(1)
+        self._sum = np.concatenate((none, np.cumsum(self.weights)))
+        self._squares = np.concatenate((none, np.cumsum(self.weights**2)))
+        most = np.maximum.accumulate(self.weights)
+        # Where no draw exceeds, the next that would counts as much as the largest.
+        self._most = np.concatenate((most[:1], most)) if len(most) else none
+
+    def rate(self, value: ArrayLike, confidence: float = CONFIDENCE) -> Estimate:
+        """Return how often these values are exceeded, with the band [1/s]."""
+        count = np.searchsorted(-self.values, -np.asarray(value, dtype=float), side="left")
+        return Estimate(*(self.frequency * part for part in self._shares(count, confidence)))
+
+    def value(self, rate: float, confidence: float = CONFIDENCE) -> Estimate:
+        """Return the value that is exceeded at a rate [1/s], and those where the band has it.
+
+        Zero where even that is not exceeded so often; infinite where the draws cannot tell.
+        """
+        share = positive("rate", rate) / self.frequency
+        found = self._shares(np.arange(len(self.values) + 1), confidence)
+        values = np.concatenate(((math.inf,), self.values, (0.0,)))
+        grown = (np.maximum.accumulate(part) for part in found)  # with the number that exceed
+        return Estimate(*(values[np.searchsorted(part, share)] for part in grown))
+
+    @property
+    def total(self) -> Estimate:
+        """How often there is any event that counts [1/s]."""
+        return self.rate(-math.inf)
+
+    def _shares(self, count: NDArray[np.int_], confidence: float) -> Estimate:
+        """Return the shares of all events in which the largest `count` values are exceeded."""
+        from scipy.special import gammainccinv, gammaincinv
+
+        n, tail = self.size, 0.5 * (1.0 - confidence)
+        mean = self._sum[count] / n
+        variance = np.maximum(self._squares[count] / n - mean**2, 0.0) / n
+        one = self._most[count] / n
+        upper, spread = mean + one, variance + one**2
+        some = variance > 0.0
+        scale = np.divide(variance, mean, out=np.ones_like(mean), where=some)
+        low = np.where(some, scale * gammaincinv(mean / scale, tail), mean)
+        wide = np.where(spread > 0.0, spread / np.where(upper > 0.0, upper, 1.0), 1.0)
+        high = np.where(spread > 0.0, wide * gammainccinv(upper / wide, tail), upper)
+        return Estimate(mean, low, high)
+
+
+def probability(rate: ArrayLike, time: float) -> Array:
+    """Return the chance of an event within a time [s] where they occur at a rate [1/s]."""
+    return np.asarray(-np.expm1(-np.asarray(rate) * time))

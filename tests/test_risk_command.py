@@ -1,0 +1,307 @@
+"""`pierimpact risk`: keys, distributions and samples of a case, its results, page and curve."""
+
+import csv
+import io
+import json
+import math
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
+from test_casefile import CASE
+
+from pierimpact import cli
+from pierimpact.checks import InputError
+from pierimpact.collision.simulate import simulate
+from pierimpact.files.case import case_from
+from pierimpact.files.distributions import parse_distribution
+from pierimpact.files.weigh_in_motion import read_weigh_in_motion
+from pierimpact.report.risk import RATES, case_risk, risk_json, risk_text
+from pierimpact.report.risk_page import risk_blocks, risk_csv
+from pierimpact.risk.traffic import ANGLES, YEAR, jcss_mass
+
+TRAFFIC = {
+    "traffic_volume": "20000 vehicles/day",
+    "truck_share": 0.15,
+    "distance_from_road": "6 m",
+    "shear_resistance": "6 MN",
+}
+CASE = {key: value for key, value in CASE.items() if not key.endswith("_resistance")} | TRAFFIC
+
+
+@pytest.fixture(scope="module")
+def result():
+    return case_risk(case_from(CASE), 400, 3)
+
+
+def written(folder, values):
+    path = folder / "pier.yaml"
+    path.write_text("".join(f"{key}: {value}\n" for key, value in values.items()), "utf-8")
+    return path
+
+
+LAWS = {
+    "lognorm(s=0.5, scale=18 t)": stats.lognorm(0.5, scale=18e3),
+    "weibull_min(c=2.1, scale=40000 lb, loc=3 t)": stats.weibull_min(
+        2.1, scale=40000 * 0.45359237, loc=3e3
+    ),
+    "gamma( a = 3,scale=6 t )": stats.gamma(3.0, scale=6e3),
+    "uniform(loc=4 t, scale=30 t)": stats.uniform(4e3, 30e3),
+    "beta(a=2, b=5, loc=3.5 t, scale=60 t)": stats.beta(2.0, 5.0, 3.5e3, 60e3),
+}
+
+
+@given(st.sampled_from(sorted(LAWS)), st.floats(1e-4, 0.9999))
+def test_a_distribution_is_that_of_scipy(text, share):
+    law = parse_distribution("traffic_mass", text, "mass")
+    assert law.exceeded_by(np.array([share]))[0] == pytest.approx(LAWS[text].isf(share))
+    assert law.words == text.strip()
+
+
+@given(st.floats(5.0, 40.0), st.floats(0.5, 10.0), st.sampled_from(["normal", "lognormal"]))
+def test_a_law_by_its_mean_has_it(mean, deviation, law):
+    text = f"{law}(mean={mean} t, sd={deviation} t) from 0 t"
+    frozen = parse_distribution("traffic_mass", text, "mass").law
+    assert frozen.mean() == pytest.approx(1e3 * mean)
+    assert frozen.std() == pytest.approx(1e3 * deviation)
+
+
+def test_a_law_is_truncated_where_it_says():
+    law = parse_distribution(
+        "traffic_mass", "norm(loc=20 t, scale=12 t) from 3.5 t to 44 t", "mass"
+    )
+    values = law.exceeded_by(np.linspace(1e-9, 1.0, 999))
+    assert (values.max(), values.min()) == pytest.approx((44e3, 3.5e3))
+    open_above = parse_distribution("traffic_mass", "norm(loc=20 t, scale=12 t) from 3.5 t", "mass")
+    assert open_above.mean == pytest.approx(jcss_mass().mean)
+    below = parse_distribution("traffic_mass", "norm(loc=20 t, scale=2 t) to 21 t", "mass")
+    assert (below.low, below.high) == (0.0, 21e3)
+
+
+BAD = {
+    "norm(loc=20 t, scale=12 t)": "gives negative values (4.8 % of all): say where it is truncated",
+    "normal(mean=20 t, sd=12 t) to 50 t": "gives negative values",
+    "norm": "must be a distribution, such as lognorm(s=0.5, scale=18 t)",
+    "nrom(loc=20 t, scale=1 t)": "'nrom' is no continuous distribution of scipy.stats; did you",
+    "poisson(mu=3, scale=1 t)": "'poisson' is no continuous distribution",
+    "lognorm(scale=18 t)": "lognorm needs s, scale, and s is missing",
+    "lognorm(s=0.5, scale=18)": "scale must have a unit",
+    "lognorm(s=0.5, scale=18 km/h)": "scale must be a mass",
+    "lognorm(s=half, scale=18 t)": "s must be a number, got 'half'",
+    "lognorm(s=-1, scale=18 t)": "has parameters that lognorm does not take",
+    "lognorm(s=1, skale=18 t, scale=1 t)": "'skale' is no parameter of lognorm; did you mean",
+    "lognorm(0.5, scale=18 t)": "must name its parameters",
+    "lognorm(s=1, s=2, scale=1 t)": "s is given twice",
+    "lognorm(s=1, scale=-1 t)": "scale must be positive",
+    "normal(mean=20 t)": "normal needs mean, sd, and sd is missing",
+    "lognorm(s=0.5, scale=18 t) from 9 t to 8 t": "must be truncated from a lower to a higher",
+    "uniform(loc=4 t, scale=1 t) from 7 t": "has no values between its bounds",
+}
+
+
+@pytest.mark.parametrize("text", BAD)
+def test_a_bad_distribution_is_one_line_that_says_why(text):
+    with pytest.raises(InputError) as caught:
+        case_from(CASE | {"traffic_mass": text})
+    message = str(caught.value)
+    assert message.startswith("traffic_mass")
+    assert BAD[text] in message
+    assert "\n" not in message
+
+
+@given(st.text(alphabet="norm lg(=),.0123456789tfro%μ", max_size=40))
+def test_any_text_is_a_distribution_or_a_line(text):
+    message = ""
+    try:
+        parse_distribution("traffic_mass", text, "mass")
+    except InputError as error:
+        message = str(error)
+    assert "\n" not in message
+
+
+def test_angles_stay_below_a_right_angle():
+    with pytest.raises(InputError, match="impossible values"):
+        parse_distribution("traffic_angle", "uniform(loc=0 deg, scale=100 deg)", "angle", ANGLES)
+    law = parse_distribution("traffic_angle", "rayleigh(scale=8 deg)", "angle", ANGLES)
+    assert law.mean == pytest.approx(math.radians(8.0) * math.sqrt(math.pi / 2.0))
+
+
+def test_weighed_trucks_are_read_in_their_units(tmp_path):
+    path = tmp_path / "trucks.csv"
+    path.write_text("# station 7\nspeed [mph]; mass [lb]\n50; 40000\n60;20000\n", "utf-8")
+    sample = read_weigh_in_motion(path)
+    assert sample.mass == pytest.approx(np.array([40000.0, 20000.0]) * 0.45359237)
+    assert sample.speed == pytest.approx(np.array([50.0, 60.0]) * 1609.344 / 3600.0)
+    path.write_text("mass [t]\n12\n8.5\n", "utf-8")
+    assert read_weigh_in_motion(path).speed is None
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "must have a heading"),
+        ("mass\n3\n", "row 1: the heading must name mass"),
+        ("mas [t]\n3\n", "did you mean mass?"),
+        ("mass [km]\n3\n", "row 1: mass must be a mass"),
+        ("speed [km/h]\n3\n", "row 1: there must be a column of masses"),
+        ("mass [t], mass [t]\n3,3\n", "row 1: mass is given twice"),
+        ("mass [t]\n", "must have a row for each truck"),
+        ("mass [t]\n3\n-4\n", "row 3: mass must be positive, got '-4'"),
+        ("mass [t]\n3\nheavy\n", "row 3: mass must be a number"),
+        ("mass [t], speed [km/h]\n3\n", "row 2: must have 2 columns, got 1"),
+    ],
+)
+def test_a_bad_sample_is_one_line_with_its_row(tmp_path, text, words):
+    path = tmp_path / "trucks.csv"
+    path.write_text(text, "utf-8")
+    with pytest.raises(InputError) as caught:
+        case_from(CASE | {"weigh_in_motion": "trucks.csv"}, tmp_path)
+    assert str(caught.value).startswith("trucks.csv: ")
+    assert words in str(caught.value)
+
+
+def test_keys_that_contradict_each_other_are_refused(tmp_path):
+    (tmp_path / "trucks.csv").write_text("mass [t], speed [km/h]\n12, 70\n", "utf-8")
+    sample = CASE | {"weigh_in_motion": "trucks.csv"}
+    for key, value in (("traffic_mass", "gamma(a=3, scale=6 t)"), ("traffic_speed", "urban")):
+        with pytest.raises(InputError, match=key):
+            case_from(sample | {key: value}, tmp_path)
+    traffic = case_from(sample, tmp_path).traffic.traffic
+    assert traffic.mass.mass.tolist() == [12e3]
+
+
+def test_the_values_of_a_case_are_those_of_its_traffic():
+    case = case_from(CASE | {"exposed_width": "3.4 m", "encroachment_rate": "2e-7 1/vehicle/km"})
+    traffic = case.traffic.traffic
+    assert traffic.trucks * 86400.0 == pytest.approx(3000.0)
+    assert (traffic.distance, traffic.width) == (6.0, 3.4)
+    assert traffic.encroachment_rate == pytest.approx(2e-10)
+    assert YEAR * traffic.departures == pytest.approx(
+        3000 * 365 * 2e-10 * 3.4 / math.sin(math.radians(10.0)), rel=1e-6
+    )
+    assert [file.truck.name for file in case.traffic.truck_files] == [
+        "single-unit-8t", "tractor-trailer-36t",
+    ]  # fmt: skip
+    one = case_from(CASE | {"traffic_trucks": ["tractor-trailer-36t"]})
+    assert [file.truck.name for file in one.traffic.truck_files] == ["tractor-trailer-36t"]
+    fewer = {key: value for key, value in CASE.items() if key != "truck_share"}
+    assert case_from(fewer).traffic is None
+    with pytest.raises(InputError, match="truck_share is missing: a risk needs traffic_volume"):
+        case_risk(case_from(fewer))
+
+
+def test_all_that_is_said_is_of_the_same_curve(result):
+    found = result.risk.reaction
+    (check,) = result.checks
+    static = abs(result.struck.member_forces(check.reaction).largest_shear.value)
+    assert static * max(1.0, result.beam["shear"][1]) == pytest.approx(6e6)
+    data = json.loads(risk_json("pier.yaml", result))
+    assert data["hits"][0] == pytest.approx(YEAR * float(found.total.value))
+    assert data["annual_hit_probability"] == pytest.approx(-math.expm1(-data["hits"][0]))
+    exceeded = data["checks"]["shear"]["exceeded"]
+    assert exceeded == pytest.approx([YEAR * float(x) for x in found.rate(check.reaction)])
+    assert data["checks"]["shear"]["return_period"] == pytest.approx(1.0 / exceeded[0])
+    for rate in RATES:
+        assert data["reactions"][f"{rate:g}"][0] == pytest.approx(
+            float(found.value(rate / YEAR).value)
+        )
+    text = risk_text("pier.yaml", result)
+    assert "The shear resistance is exceeded" in text
+    assert "read in a public copy" in text
+    assert max(map(len, text.splitlines())) <= 100
+
+
+def test_collisions_drawn_once_more_are_the_same(result):
+    strikes = result.risk.strikes
+    near = result.risk.nearest(3e6, 5)
+    assert len(near) == 5
+    for truck, speed, reaction in near:
+        place = int(np.flatnonzero(strikes.speed == speed)[0])
+        assert truck.mass == pytest.approx(strikes.mass[place])
+        again = simulate(truck, result.risk.pier, speed).governing_peak.reaction
+        assert again == pytest.approx(reaction, rel=1e-9)
+        assert reaction == strikes.reaction[place]
+    assert result.risk.nearest(0.0, 10**6)
+
+
+def test_shear_and_moment_are_the_larger_of_both_methods(result):
+    forces = result.struck.member_forces(1.0)
+    for name, value in (("shear", forces.largest_shear), ("moment", forces.largest_moment)):
+        least, middle, most = result.beam[name]
+        assert 0.3 < least <= middle <= most < 3.0
+        assert result.effects[name] == pytest.approx(abs(value.value) * max(1.0, middle))
+
+
+def test_the_curve_of_the_file_is_the_curve(result):
+    head, *rows = csv.reader(io.StringIO(risk_csv(result)))
+    assert head[:2] == ["reaction [kN]", "frequency [1/year]"]
+    values = np.array(rows, dtype=float)
+    assert len(values) == 200
+    rate = result.risk.reaction.rate(1e3 * values[:, 0])
+    np.testing.assert_allclose(values[:, 1], YEAR * rate.value, rtol=0.05, atol=1e-7)
+    assert np.all(values[:, 2] <= values[:, 1] * (1 + 1e-4))
+    assert np.all(values[:, 1] <= values[:, 3] * (1 + 1e-4))
+    total = float(result.hits.value)
+    np.testing.assert_allclose(values[:, 4], values[:, 1] / total, rtol=1e-3, atol=1e-9)
+    np.testing.assert_allclose(values[:, 6], result.effects["shear"] * values[:, 0], rtol=1e-4)
+
+
+def test_the_page_has_figures_and_says_what_is_default(result):
+    blocks = {type(block).__name__: block for block in risk_blocks("pier", result)}
+    figures = [b for b in risk_blocks("pier", result) if type(b).__name__ == "Figure"]
+    assert [figure.label for figure in figures] == ["fig-exceedance", "fig-feared"]
+    assert all(figure.svg.startswith("<?xml") and figure.alt for figure in figures)
+    assert any("quite conservative" in text for text in blocks["Notice"].body)
+
+
+def test_the_command_writes_both_files_or_none(tmp_path, capsys):
+    path = written(tmp_path, CASE | {"traffic_speed": "urban"})
+    out = tmp_path / "out"
+    arguments = ["risk", str(path), "--samples", "300", "--output", str(out)]
+    assert cli.main(arguments) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    assert "JCSS, urban: lognormal, 40 ± 7" in printed.out
+    assert sorted(file.name for file in out.iterdir()) == ["pier-risk.csv", "pier-risk.html"]
+    page = (out / "pier-risk.html").read_text("utf-8")
+    assert "<script" not in page
+    sources = re.findall(r'(?:src|srcset)="([^"]*)"', page)
+    assert all(source.startswith("data:image/") for source in sources)
+    taken = tmp_path / "file"
+    taken.write_text("mine")
+    assert cli.main([*arguments[:-1], str(taken)]) == 2
+    assert taken.read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("change", "options", "words"),
+    [
+        ({"truck_share": None}, [], "pier.yaml: truck_share is missing"),
+        ({"truck_share": 1.5}, [], "pier.yaml: truck_share must lie above 0 to 1, got 1.5"),
+        ({"traffic_volume": "20000"}, [], "pier.yaml: traffic_volume must have a unit"),
+        ({"traffic_volume": "5 Hz"}, [], "pier.yaml: traffic_volume must be a number of vehicles"),
+        (
+            {"distance_from_road": "-1 m"},
+            [],
+            "pier.yaml: distance_from_road must be from 0 to 1000 m",
+        ),
+        ({"traffic_mass": "norm(loc=20 t, scale=12 t)"}, [], "pier.yaml: traffic_mass gives neg"),
+        ({"traffic_mass": "pareto(b=1, scale=5 t)"}, [], "pier.yaml: traffic_mass gives imposs"),
+        ({"traffic_speed": "motorwy"}, [], "pier.yaml: traffic_speed must be a distribution"),
+        ({"weigh_in_motion": "no.csv"}, [], "no.csv: cannot be read"),
+        ({}, ["--samples", "0"], "--samples must be at least 1, got 0"),
+        ({}, ["--workers", "0"], "--workers must be at least 1, got 0"),
+    ],
+)
+def test_bad_input_is_one_line_and_writes_nothing(tmp_path, capsys, change, options, words):
+    values = {key: value for key, value in (CASE | change).items() if value is not None}
+    path = written(tmp_path, values)
+    assert cli.main(["risk", str(path), "--output", str(tmp_path / "out"), *options]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert len(printed.err.splitlines()) == 1
+    assert words in printed.err
+    assert not (tmp_path / "out").exists()
