@@ -47,14 +47,14 @@ class Session:
     """
 
     def __init__(self, case: Path | None = None) -> None:
+        text = None if case is None else _case_text(case)
         self._temporary = tempfile.TemporaryDirectory(
             prefix="pierimpact-app-", ignore_cleanup_errors=True
         )
         self.folder = Path(self._temporary.name) / "case"
         self.folder.mkdir()
         self.name, self.text, self.note = "case.yaml", new_case(), ""
-        if case is not None:
-            text = _case_text(case)
+        if case is not None and text is not None:
             for beside in case.absolute().parent.iterdir():
                 if beside.name != case.name:
                     (self.folder / beside.name).symlink_to(beside)
