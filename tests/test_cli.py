@@ -23,6 +23,8 @@ COMMANDS = (
     "check",
     "report",
     "compare",
+    "portfolio",
+    "inventory",
     "trucks",
     "schema",
     "fit",
