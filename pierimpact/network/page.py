@@ -145,7 +145,7 @@ def _remarks(portfolio: Portfolio) -> Iterator[str]:
     low = int(np.count_nonzero(words["static_forces"] != "hold"))
     if low:
         yield (
-            f"Static member forces may be too low for {low:,} piers; {beams:,} in all are "
+            f"Static member forces may be too low for {low:,} of the piers; {beams:,} in all are "
             f"calculated as a {BEAM}, and the others of these are checked under the largest "
             "contact force as a static force, unless their row asks for the static reaction."
         )
