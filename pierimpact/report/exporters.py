@@ -412,8 +412,8 @@ def compile_typst(
 def _to_number(characters: set[str]) -> list[str]:
     """Return which characters of clusters that no font displays print as their numbers.
 
-    Marks that stand on others go first, as it may be for them alone. What is ASCII never does: every
-    font has it, and Typst's own words are made of it.
+    Marks that stand on others go first, as it may be for them alone. What is ASCII never does:
+    every font has it, and Typst's own words are made of it.
     """
     others = sorted(c for c in characters if not c.isascii())
     marks = [c for c in others if unicodedata.category(c) in ("Mn", "Mc", "Me", "Cf")]
