@@ -1,5 +1,6 @@
 """Writes sets of files over and over until it is killed; run by the tests of writing."""
 
+import signal
 import sys
 from pathlib import Path
 
@@ -24,5 +25,6 @@ def write_forever(folder, who):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # even where tests run behind a shell
     with signals_as_interrupts():
         write_forever(Path(sys.argv[1]), sys.argv[2])

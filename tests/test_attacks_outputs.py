@@ -35,7 +35,10 @@ def orphans_come_here():
     """Let orphans have a parent that is not the first process, as in a user's session."""
     reaper = 36  # PR_SET_CHILD_SUBREAPER
     ctypes.CDLL(None).prctl(reaper, 1)
+    # Tests that run behind a shell ignore Ctrl-C, and what they start would too.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
+    signal.signal(signal.SIGINT, before)
     ctypes.CDLL(None).prctl(reaper, 0)
 
 
