@@ -56,6 +56,7 @@ html_title = "pierimpact"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_domain_indices = False
+html_show_copyright = False
 html_copy_source = False
 html_show_sourcelink = False
 linkcheck_anchors = False

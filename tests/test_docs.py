@@ -1,10 +1,13 @@
 """The documentation: it builds without a word of complaint, leads everywhere, fetches nothing."""
 
+import doctest
 import os
 import re
 import subprocess
 import sys
 from html.parser import HTMLParser
+from importlib import import_module
+from inspect import ismodule
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -13,6 +16,7 @@ import pytest
 from sphinx.util.inventory import InventoryFile
 
 import pierimpact
+from pierimpact.plots.figures import figure_of
 
 HOUSE = Path(__file__).parents[1]
 DOCS = HOUSE / "docs"
@@ -158,3 +162,30 @@ def test_notebook_of_the_how_to_runs(tmp_path, monkeypatch):
         assert cell.execution_count is None
         exec(compile(cell.source, path.name, "exec"), scope)
     assert (tmp_path / "history.png").stat().st_size > 10_000
+
+
+# The modules for notebooks show what a page or a test of their own executes; a warning is no call.
+EXAMPLES = [
+    *(
+        name
+        for name in pierimpact.__all__
+        if not (name.endswith("Warning") or ismodule(getattr(pierimpact, name)))
+    ),
+    "plots.figures.figure_of",
+]
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_example_of_a_docstring_runs(name):
+    home, _, last = name.rpartition(".")
+    public = getattr(import_module(f"pierimpact.{home}" if home else "pierimpact"), last)
+    (test,) = [
+        test
+        for test in doctest.DocTestFinder(recurse=False).find(
+            public, name, globs={"figure_of": figure_of}
+        )
+        if test.examples
+    ]
+    found = []
+    doctest.DocTestRunner().run(test, out=found.append)
+    assert found == []
