@@ -23,7 +23,7 @@ PATIENCE = 600  # only a server or a kernel that hangs takes longer [s]
 COMMAND = """
 import sys
 from pierimpact.teaching import server
-server.MOST_KERNELS, server.COURSE_PATIENCE, server.EXPLORER_PATIENCE = 1, 4, 4
+server.MOST_KERNELS, server.COURSE_PATIENCE, server.PAGE_PATIENCE = 1, 4, 4
 from pierimpact.cli import main
 sys.exit(main(["teach", "--no-browser", *sys.argv[1:]]))
 """

@@ -14,7 +14,7 @@ def served(monkeypatch):
     def serve(*what, browser):
         calls.append((*what, browser))
 
-    server = SimpleNamespace(serve_course=serve, serve_explorer=serve)
+    server = SimpleNamespace(serve_course=serve, serve_page=serve)
     monkeypatch.setattr(teach, "import_module", lambda _: server)
     monkeypatch.setattr(teach, "_need", lambda *_: None)
     return calls

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pierimpact
 from pierimpact.checks import InputError
-from pierimpact.cli import cases, files, fit, network, risk, teach
+from pierimpact.cli import app, cases, files, fit, network, risk, teach
 from pierimpact.cli.ending import drop_output, print_anything, signals_as_interrupts
 from pierimpact.cli.terminal import complain, defect
 from pierimpact.files.write import written
@@ -66,6 +66,7 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=version)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     files.add_new(commands)
+    app.add_app(commands)
     cases.add_check(commands)
     cases.add_report(commands)
     cases.add_compare(commands)

@@ -37,7 +37,8 @@ from pierimpact.symbols import SYMBOLS
 from pierimpact.units import unit_size
 from pierimpact.vehicle.truck import Truck
 
-_MOST = 64_000  # bytes; a longer file is none of ours: this project's choice
+#: Bytes of a case file; a longer file is none of ours: this project's choice.
+MOST_BYTES = 64_000
 #: Parameters of the report notebook that are no keys of a case file.
 NOTEBOOK_PARAMETERS = ("case_file", "case_sha256", "shared_sha256")
 #: Sections by column_shape.
@@ -138,7 +139,7 @@ def read_case_file(path: str | Path) -> CaseFile:
 def _read(path: Path, *, follow: bool) -> CaseFile:
     """Return a case file; with the one that it supersedes, if any, where `follow` is true."""
     try:
-        content, text = read_text(path, _MOST)
+        content, text = read_text(path, MOST_BYTES)
         values = yaml_keys(text)
         shared = read_shared_file(path.parent)
         if shared is not None:

@@ -301,9 +301,35 @@ def read_shared(values: Mapping[str, object], file: str) -> SharedInputs:
         raise InputError(_one_line(error)) from None
 
 
+def faults(values: Mapping[str, object]) -> dict[str, str]:
+    """Return what is wrong with keys and values, a line for each key at fault.
+
+    The lines are those of `read_inputs`, which ends with the first. What two keys say against each
+    other is left to the reader of the case.
+    """
+    found: dict[str, str] = {}
+    given: dict[str, Any] = {}
+    for key, value in values.items():
+        try:
+            known(key, KEYS, "a key of a case file")
+        except InputError as error:
+            found[key] = str(error)
+        else:
+            given |= {} if value is None else {key: value}
+    try:
+        Inputs(**given)
+    except ValidationError as error:
+        found |= {str(each["loc"][0]): _in_words(each) for each in reversed(error.errors())}
+    return found
+
+
 def _one_line(error: ValidationError) -> str:
     """Return the first of pydantic's errors in the words of this project."""
-    first = error.errors()[0]
+    return _in_words(error.errors()[0])
+
+
+def _in_words(first: Any) -> str:
+    """Return an error of pydantic's in the words of this project."""
     key = first["loc"][0]
     if first["type"] == "value_error":
         return str(first["ctx"]["error"])

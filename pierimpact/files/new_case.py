@@ -115,7 +115,8 @@ _HEADER = """\
 # A line that begins "# key:" is optional: take the # away to use it. Values may be given in any of
 # the units named, whatever the sheet prints in.
 """
-_ASSUMED = "an example, to be replaced"
+#: The reason that a new case gives for its values.
+EXAMPLE = "an example, to be replaced"
 # Column in which comments begin, and most of a line [characters].
 _COMMENT, _WIDTH = 34, 100
 
@@ -162,7 +163,7 @@ def new_case(
                 used.append(key)  # with its mark, if it has one
             else:
                 yield f"# {row}" if row else ""
-        yield from (f"  {key}: {_ASSUMED}" for key in used if key in PHYSICAL_KEYS)
+        yield from (f"  {key}: {EXAMPLE}" for key in used if key in PHYSICAL_KEYS)
 
     return "\n".join(lines()).lstrip() + "\n"
 
@@ -173,6 +174,17 @@ def new_case_for(path: Path, shape: str, system: str) -> str:
     Parameters as in `new_case`.
     """
     return new_case(path.name, shape, system, schema=(path.parent / SCHEMA_FILE).exists())
+
+
+def examples(shape: str, system: str) -> dict[str, str]:
+    """Return a value for each key that a case of a shape may give, as in a new case file.
+
+    Parameters as in `new_case`.
+    """
+    which = SYSTEMS.index(system)
+    rows = ([cell.strip() for cell in row.split("|")] for row in _TABLE.splitlines() if "|" in row)
+    values = {key.removeprefix("# "): own[min(which, len(own) - 1)] for key, *own in rows}
+    return values | {key: _dimension(shape, key)[which] for key in section_keys(SHAPES[shape])}
 
 
 def _dimension(shape: str, key: str) -> tuple[str, str]:

@@ -76,7 +76,7 @@ def open_notebooks(
     server: Any = import_module("pierimpact.teaching.server")  # slow to import
     folder = copy_notebooks(folder)
     if app:
-        server.serve_explorer(folder / "explorer.ipynb", browser=browser)
+        server.serve_page(folder / "explorer.ipynb", browser=browser)
     else:
         server.serve_course(folder, "01_collision.ipynb", browser=browser)
 

@@ -1,4 +1,4 @@
-"""Servers of the course and of its explorer: on this machine only, behind a token, few kernels.
+"""Servers of the course and of single pages: on this machine only, behind a token, few kernels.
 
 Either runs in this process until SIGINT or SIGTERM ends it, with its kernels. What a user's
 configuration says of addresses, tokens and origins does not count.
@@ -22,9 +22,9 @@ from pierimpact.resources import PACKAGE
 
 #: Kernels that live at a time; each takes some 150 MB of memory.
 MOST_KERNELS = 10
-#: How long a kernel that no page is connected to lives on [s], in the course and in the explorer,
-#: and how long at least while it starts.
-COURSE_PATIENCE, EXPLORER_PATIENCE, STARTING_PATIENCE = 600, 30, 120
+#: How long a kernel that no page is connected to lives on [s], in the course and on a page, and
+#: how long at least while it starts.
+COURSE_PATIENCE, PAGE_PATIENCE, STARTING_PATIENCE = 600, 30, 120
 
 _LOOPBACK = "127.0.0.1"
 _HOSTS = r"(127\.0\.0\.1|localhost)$"  # names that a browser may call this machine by
@@ -91,7 +91,7 @@ def serve_course(folder: Path, notebook: str, *, browser: bool, port: int = 8888
     )
 
 
-def serve_explorer(notebook: Path, *, browser: bool, port: int = 8866) -> None:
+def serve_page(notebook: Path, *, browser: bool, port: int = 8866) -> None:
     """Serve a notebook by Voilà, as a page without code, until a signal ends it."""
     from voila.app import Voila
     from voila.tornado.handler import TornadoVoilaHandler
@@ -104,7 +104,7 @@ def serve_explorer(notebook: Path, *, browser: bool, port: int = 8866) -> None:
             self.set_header("Content-Type", "text/plain; charset=UTF-8")
             self.finish(reason or responses[status_code])
 
-    class Explorer(Voila):  # type: ignore[misc]
+    class Server(Voila):  # type: ignore[misc]
         """A server of one page, and of nothing else that is in its folder."""
 
         def init_settings(self) -> dict[str, Any]:
@@ -130,9 +130,9 @@ def serve_explorer(notebook: Path, *, browser: bool, port: int = 8866) -> None:
     config.VoilaConfiguration.allow_template_override = "NO"
     config.VoilaConfiguration.allow_theme_override = "NO"
     config.VoilaConfiguration.multi_kernel_manager_class = FewKernels
-    config.MappingKernelManager.cull_idle_timeout = EXPLORER_PATIENCE
-    config.MappingKernelManager.cull_interval = max(1, EXPLORER_PATIENCE // 2)
-    app = Explorer(
+    config.MappingKernelManager.cull_idle_timeout = PAGE_PATIENCE
+    config.MappingKernelManager.cull_interval = max(1, PAGE_PATIENCE // 2)
+    app = Server(
         config=config,
         config_file_paths=[],
         ip=_LOOPBACK,
