@@ -1,6 +1,6 @@
 """How fast the collision is, beside its peers: python benchmarks/speed.py.
 
-Measures all in one run, prints the table of the README and puts it there between its two marks,
+Measures all in one run, prints the table of docs/speed.md and puts it there between its two marks,
 and draws how the cost grows (benchmarks/growth.svg). Needs the test requirements; rows of
 OpenSees are left out where it does not load. Takes about three minutes.
 """
@@ -35,7 +35,7 @@ from pierimpact import (
 from pierimpact.pier.equivalent import stiffness_at_frequency
 
 HERE = Path(__file__).parent
-README = HERE.parent / "README.md"
+PAGE = HERE.parent / "docs" / "speed.md"
 sys.path.insert(0, str(HERE.parent / "tests"))  # the independent solutions of the tests
 
 TRUCK, SPEED, MASS, DAMPING = load_truck("single-unit-8t"), 80.0 / 3.6, 8e3, 0.05
@@ -248,7 +248,7 @@ def growth_row() -> Row:
 
 
 def main() -> None:
-    """Measure, print, and put the table into the README."""
+    """Measure, print, and put the table into the PAGE."""
     exact, ours = converged(), seconds(spectrum, 15)
     rows = [*spectrum_rows(exact, ours), *single_rows(), growth_row()]
     few = seconds(lambda: peak_reactions(TRUCK, MASS, STIFFNESS[EVERY], DAMPING, SPEED), 15)
@@ -262,10 +262,10 @@ def main() -> None:
         f"own takes {', '.join(profile())}.",
     ]
     print("\n".join(table))
-    text = README.read_text(encoding="utf-8")
+    text = PAGE.read_text(encoding="utf-8")
     start, end = (text.index(mark) for mark in MARKS)
     new = [text[: start + len(MARKS[0])], *table, text[end:]]
-    README.write_text("\n".join(new), encoding="utf-8")
+    PAGE.write_text("\n".join(new), encoding="utf-8")
 
 
 if __name__ == "__main__":

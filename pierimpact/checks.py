@@ -19,7 +19,16 @@ _MARKS = "\ufeff\ufffe\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
 
 
 class InputError(ValueError):
-    """A value breaks a rule; the message names the argument, the value and the rule."""
+    """A value breaks a rule; the message names the argument, the value and the rule.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier
+    >>> EquivalentPier(mass=-1.0, stiffness=284e6)
+    Traceback (most recent call last):
+        ...
+    pierimpact.checks.InputError: mass must be positive, got -1
+    """
 
 
 def _float(name: str, value: SupportsFloat) -> float:

@@ -2,7 +2,9 @@
 
 import math
 import re
+import sys
 from functools import cache
+from importlib import import_module
 from typing import Any, NamedTuple
 
 from pierimpact.checks import InputError, brief, did_you_mean
@@ -76,11 +78,23 @@ _PRIMES = str.maketrans("′’″”", "''\"\"")
 
 
 @cache
+def _pint() -> Any:
+    """Import pint, without Dask, which it would load where that is installed, for nothing here."""
+    modules: dict[str, Any] = sys.modules
+    absent = "dask" not in modules
+    if absent:
+        modules["dask"] = None  # the import of such a name fails
+    try:
+        return import_module("pint")
+    finally:
+        if absent:
+            del modules["dask"]
+
+
+@cache
 def _registry() -> Any:
     """Return the unit registry; pint is imported on first use."""
-    import pint
-
-    registry: Any = pint.UnitRegistry(None)
+    registry = _pint().UnitRegistry(None)
     for definition in re.split(r"[;\n]", _DEFINITIONS):
         if definition.strip():
             registry.define(definition.strip())
@@ -90,8 +104,7 @@ def _registry() -> Any:
 @cache
 def _unit(expression: str) -> tuple[float, dict[str, float]] | None:
     """Return a unit's size in SI units and its dimensions, or None where it is not understood."""
-    import pint
-
+    pint = _pint()
     expression = expression.translate(_MARKS)
     if not _EXPRESSION.fullmatch(expression):
         return None

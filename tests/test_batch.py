@@ -192,7 +192,7 @@ def test_each_bad_case_has_one_line_that_says_why(made):
     assert all(failure.bad_input for failure in made[1].failures)
     assert reasons == [
         "P3.yaml: 'sped' is not a key of a case file; did you mean speed?",
-        "P4.yml: is not UTF-8 text",
+        "P4.yml: is not UTF-8 text: line 1 cannot be decoded",
         "P5.yaml: cannot be read: No such file or directory",
     ]
     page = html.unescape((made[2] / "summary.html").read_text("utf-8"))
@@ -302,7 +302,7 @@ def test_the_csv_reads_back_to_four_figures(made):
     assert by_name["A"]["project"] == "'=1+1"
     assert by_name["A"]["element"] == "'@x;'-y"
     assert by_name["P4"]["warnings"] == ""
-    assert by_name["P4"]["reason"] == "P4.yml: is not UTF-8 text"
+    assert by_name["P4"]["reason"] == "P4.yml: is not UTF-8 text: line 1 cannot be decoded"
     assert by_name["P4"]["speed [km/h]"] == ""
     assert by_name["P 1 & <b>"]["resistance"] == "exceeded"
 

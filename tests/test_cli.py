@@ -3,6 +3,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,21 @@ from pierimpact.report.results import Results
 from pierimpact.report.write import Report, ReportError
 
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
+
+COMMANDS = (
+    "new",
+    "check",
+    "report",
+    "compare",
+    "portfolio",
+    "inventory",
+    "trucks",
+    "schema",
+    "fit",
+    "teach",
+    "collect",
+    "page",
+)
 
 
 def test_help_and_version(capsys):
@@ -99,6 +115,73 @@ def test_interrupted(monkeypatch, capsys):
     assert capsys.readouterr().err == "pierimpact: interrupted, nothing written\n"
 
 
+def fails(options):
+    raise ZeroDivisionError("a\nb")
+
+
+def test_what_nobody_foresaw_is_one_line_without_debug(monkeypatch, capsys):
+    monkeypatch.setattr("pierimpact.cli.files._trucks", fails)
+    assert cli.main(["trucks"]) == 1
+    assert capsys.readouterr().err == (
+        "pierimpact: ZeroDivisionError: a b; this is a defect of the program: run it again with "
+        "--debug\n"
+    )
+
+
+def command(*arguments, **options):
+    """Run the command line in a process of its own."""
+    environment = os.environ | {"PYTHONPATH": str(Path(pierimpact.__file__).parent.parent)}
+    return subprocess.run(
+        [sys.executable, "-m", "pierimpact", *arguments],
+        env=environment | options.pop("environment", {}),
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        **options,
+    )
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_has_debug(name, capsys):
+    with pytest.raises(SystemExit):
+        cli.main([name, "--help"])
+    assert "--debug" in capsys.readouterr().out
+
+
+def test_debug_shows_where_bad_input_is_found():
+    done = command("trucks", "nowhere", "--debug")
+    assert done.returncode == 2
+    assert "Traceback (most recent call last)" in done.stderr
+    assert done.stderr.splitlines()[-1].startswith("pierimpact: truck must be a name of the cat")
+
+
+def test_output_in_ascii_and_to_a_full_disk():
+    done = command("trucks", "single-unit-8t", environment={"PYTHONIOENCODING": "ascii"})
+    assert (done.returncode, done.stderr) == (0, "")
+    with Path("/dev/full").open("w") as full:
+        done = command("trucks", stdout=full)
+    assert done.returncode == 1
+    assert done.stderr == "pierimpact: the output: No space left on device\n"
+
+
+@pytest.mark.parametrize("delay", [0.03, 0.06, 0.1, 0.2])
+def test_an_interrupt_at_the_start_is_one_line(delay):
+    environment = os.environ | {"PYTHONPATH": str(Path(pierimpact.__file__).parent.parent)}
+    code = "import sys; from pierimpact.cli import main; print(flush=True); sys.exit(main())"
+    process = subprocess.Popen(
+        [sys.executable, "-c", code, "check", str(EXAMPLE)],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+    )
+    process.stdout.readline()  # Python has started
+    time.sleep(delay)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate()
+    assert process.returncode == 130
+    assert err == "pierimpact: interrupted, nothing written\n"
+
+
 def test_output_that_nobody_reads_is_no_failure_to_tell():
     read, write = os.pipe()
     os.close(read)
@@ -123,7 +206,7 @@ def test_output_that_cannot_be_written_or_encoded(arguments):
             command, env=environment, stdout=full, stderr=subprocess.PIPE, encoding="utf-8"
         )
     assert done.returncode == 1
-    assert done.stderr == "pierimpact: [Errno 28] No space left on device\n"
+    assert done.stderr == "pierimpact: the output: No space left on device\n"
     done = subprocess.run(
         command, env=environment | {"PYTHONIOENCODING": "ascii"}, capture_output=True, check=True
     )

@@ -21,7 +21,9 @@ TABLE = {
     )
 }
 #: What others may be asked to install with pierimpact, and what its tests need besides.
-FREE = re.compile(r"MIT|BSD|Apache|ISC|PSF|Python Software Foundation|MPL|Mozilla|Zlib|CC0")
+FREE = re.compile(
+    r"MIT|0?BSD|Public Domain|Apache|ISC|PSF|Python Software Foundation|MPL|Mozilla|Zlib|CC0"
+)
 ONLY_IN_TESTS = {"codespell", "openseespy", "openseespylinux"}
 
 

@@ -12,6 +12,7 @@ from PIL import Image
 from pypdf import PdfReader
 
 from pierimpact import EquivalentPier, cli, load_truck
+from pierimpact.cli.commands import parser
 from pierimpact.cli.fit import pier_of, piers_of
 from pierimpact.collision.records import Record
 from pierimpact.design.fit import fit_records, parameter, with_parameters
@@ -156,7 +157,7 @@ def test_a_bad_record_is_one_line_and_code_2(tmp_path, capsys):
 def test_a_case_file_gives_the_pier():
     case = NOTEBOOKS / "tti-column.yaml"
     (pier,) = piers_of(
-        cli.parser().parse_args(["fit", "r.csv", "--speed", "1 m/s", "--case", str(case)])
+        parser().parse_args(["fit", "r.csv", "--speed", "1 m/s", "--case", str(case)])
     )
     from pierimpact.files.case import read_case_file
 

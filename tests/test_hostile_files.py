@@ -350,7 +350,7 @@ def mutated(text, number):
             chance.choice(PIECES),
             chr(chance.choice([chance.randrange(128), chance.randrange(0x110000)])),
             text[start:end] * 2,
-            "".join(chance.sample(text.splitlines(keepends=True), 2)) if "\n" in text else "\n",
+            "".join(chance.sample((text + "\n\n").splitlines(keepends=True), 2)),
         )[kind]
         text = text[:start] + new + text[end:]
     return text.encode("utf-8", "surrogatepass")

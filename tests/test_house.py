@@ -68,10 +68,10 @@ def test_links_of_the_readme_lead_somewhere():
     assert [target for target in targets if not (HOUSE / target).exists()] == []
 
 
-def test_python_of_the_readme_runs(capsys):
-    readme = (HOUSE / "README.md").read_text(encoding="utf-8")
-    for program in re.findall(r"```python\n(.*?)```", readme, re.DOTALL):
-        exec(compile(program, "README.md", "exec"), {})
+def test_python_of_the_start_runs(capsys):
+    start = (HOUSE / "docs" / "start.md").read_text(encoding="utf-8")
+    for program in re.findall(r"```python\n(.*?)```", start, re.DOTALL):
+        exec(compile(program, "start.md", "exec"), {})
     printed = capsys.readouterr().out.strip().splitlines()
     engine_and_cargo, member_forces, governing, *band = printed
     assert len(engine_and_cargo.split()) == 2
@@ -80,11 +80,11 @@ def test_python_of_the_readme_runs(capsys):
     assert "engine_mass" in " ".join(band)
 
 
-def test_figures_of_the_readme_are_those_of_the_study():
-    readme = (HOUSE / "README.md").read_text(encoding="utf-8")
+def test_figures_of_the_evidence_are_those_of_the_study():
+    evidence = (HOUSE / "docs" / "evidence.md").read_text(encoding="utf-8")
     study = json.loads((HOUSE / "pierimpact" / "design" / "study.json").read_text(encoding="utf-8"))
     for level in ("short (default)", "long"):
         found = study["predicted over CMSD"][level.split()[0]]["governing"]["all"]
         spread = 100.0 * found["coefficient of variation"]
         row = f"| {level} | {found['mean']:.2f} | {spread:.1f} % | {found['1st percentile']:.2f} |"
-        assert row in readme
+        assert row in evidence

@@ -540,7 +540,16 @@ for (const slider of document.querySelectorAll(".slider input[type=range]")) {
   slider.value = before;
   slider.dispatchEvent(new Event("input"));
 }
-found.push(...collisions());
+for (const choice of document.querySelectorAll(".slider select")) {
+  const before = choice.value;
+  for (const { value } of [...choice.options, { value: before }]) {
+    choice.value = value;
+    choice.dispatchEvent(new Event("change"));
+    await picture();
+    await picture();
+    found.push(...collisions().map((words) => `${words}: ${choice.id} ${value}`));
+  }
+}
 done([count, found]);
 """
 

@@ -26,7 +26,7 @@ from pierimpact.files.unchanged import RECORD
 from pierimpact.report import write as report_module
 from pierimpact.report.calculation import calculate
 from pierimpact.report.document.blocks import TitleBlock
-from pierimpact.report.exporters import SheetPDFExporter, compile_typst, notebook_of
+from pierimpact.report.exporters import SheetPDFExporter, compile_typst, notebook_of, typst_string
 from pierimpact.report.results import Results
 from pierimpact.report.write import ReportError, exporter_for, report_notebook, write_report
 from pierimpact.units import printed
@@ -289,6 +289,17 @@ def test_what_no_font_has_prints_as_its_number():
     assert reader.pages[0].extract_text().count("[U+10FFFD]") == 2
     assert re.search(r"pdfuaid:part>1<", reader.xmp_metadata.stream.get_data().decode())
     assert compile_typst('#set document(title: "x")\n#"Łø Мост"', "2026-01-31")[1] == ""
+
+
+@pytest.mark.parametrize(
+    "text", ["Pier 1️⃣ #2", "Ke᷵ [x]", "שָׁלוֹם עוֹלָם " * 12, "ܫܠܡܐ ܥܠܡܐ " * 15], ids=ascii
+)
+def test_no_mark_and_no_script_breaks_a_document(text):
+    source = f'#set document(title: "x")\n#set text(fallback: true)\n#{typst_string(text)}'
+    pdf, missing = compile_typst(source, "2026-01-31")
+    printed = squeezed(pypdf.PdfReader(io.BytesIO(pdf)).pages[0].extract_text())
+    assert not any(c.isascii() for c in missing)
+    assert set(filter(str.isascii, squeezed(text))) <= set(printed)
 
 
 def test_no_word_runs_over_what_stands_beside_it():

@@ -294,6 +294,7 @@ def test_the_command_writes_both_files_or_none(tmp_path, capsys):
         ({"weigh_in_motion": "no.csv"}, [], "no.csv: cannot be read"),
         ({}, ["--samples", "0"], "--samples must be at least 1, got 0"),
         ({}, ["--workers", "0"], "--workers must be at least 1, got 0"),
+        ({}, ["--output", __file__], "must be a folder, and there is a file"),
     ],
 )
 def test_bad_input_is_one_line_and_writes_nothing(tmp_path, capsys, change, options, words):

@@ -3,6 +3,7 @@
 Nothing is imported before `main` can catch an interrupt: the commands are in `commands`.
 """
 
+import sys
 from collections.abc import Sequence
 
 
@@ -13,7 +14,5 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         return run(arguments)
     except KeyboardInterrupt as interrupt:
-        from pierimpact.cli.terminal import complain
-
-        complain(f"interrupted, {interrupt or 'nothing written'}")
+        print(f"pierimpact: interrupted, {str(interrupt) or 'nothing written'}", file=sys.stderr)
         return 130

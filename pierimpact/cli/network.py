@@ -14,10 +14,11 @@ largest shear and moment, the 25 ms average beside the force of the code, utilis
 The columns are id and the keys of a case file, with the unit in the heading, such as
 speed [km/h], or in each cell; latitude and longitude in degrees may be among them. Writes
 results.csv, results.parquet, rejects.csv (rows with errors, which stop nothing) and summary.html
-with distributions, a map and a table. Interrupted and run again, it goes on where it was.
+with distributions, a map and a table. Interrupted and run again, it goes on where it was; what it
+needs for that is in DIR/pieces, which may be deleted.
 """
 _EPILOG = """\
-A row costs about a millisecond of one core; as a beam, 50 to 100 ms more. Exit code: 0 if the
+A row costs about a millisecond of one core; as a beam, some 100 ms more. Exit code: 0 if the
 results are written, whether or not rows were rejected; 2 if the table is bad or the scheduler does
 not answer; 1 if anything else failed; 130 if interrupted.
 """

@@ -53,25 +53,26 @@ def add_risk(commands: Any) -> None:
 def _risk(options: argparse.Namespace) -> int:
     try:
         from pierimpact.files.case import read_case_file
-        from pierimpact.report.risk import case_risk, risk_json, risk_text
+        from pierimpact.report.risk import case_risk, missing_traffic, risk_json, risk_text
         from pierimpact.risk.analysis import SIZE
     except ModuleNotFoundError as error:
         return needs("risks", error)
     path = Path(options.case)
     size = SIZE if options.samples is None else whole("--samples", options.samples, 1)
     seed = whole("--seed", options.seed, 0)
-    try:
-        case = read_case_file(path).case
-        with _run(options, size) as run, progress_bar("collisions", size) as progress:
-            result = case_risk(case, size, seed, run=run, progress=progress)
-    except InputError as error:
-        message = str(error)
-        raise InputError(message if path.name in message else f"{path.name}: {message}") from None
+    case = read_case_file(path).case
+    if case.traffic is None:
+        raise InputError(f"{path.name}: {missing_traffic(case)}")
+    output = Path(options.output) if options.output else None
+    if output and output.exists() and not output.is_dir():  # before the work, not after it
+        raise InputError(f"output {output} must be a folder, and there is a file")
+    with _run(options, size) as run, progress_bar("collisions", size) as progress:
+        result = case_risk(case, size, seed, run=run, progress=progress)
     files: list[Path] = []
-    if options.output:
+    if output:
         from pierimpact.report.risk_page import write_risk
 
-        files = write_risk(path.stem, result, options.output)
+        files = write_risk(path.stem, result, output)
     print((risk_json if options.json else risk_text)(str(path), result))
     if not options.json:
         print(*files, sep="\n")

@@ -185,7 +185,7 @@ def _force(steps: _Steps, s: Array) -> Array:
 
 
 def _rest(steps: _Steps) -> tuple[Array, Array, Array]:
-    """Return the coefficients of s³, s⁴ and s⁵ that lead to the end of the step."""
+    """Return the coefficients of s³, s⁴ and s⁵ that lead to the end of the step, derived here."""
     h = steps.length
     F, F1, G, G1 = (
         h * steps.force,

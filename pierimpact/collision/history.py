@@ -157,7 +157,7 @@ class CollisionHistory:
 
     @property
     def ductility(self) -> float:
-        """Ductility demand: the largest |x_p| over R_y/k_p; zero where R_y is infinite [-].
+        """Ductility demand: the largest `|x_p|` over R_y/k_p; zero where R_y is infinite [-].
 
         The displacement is measured from where the pier stood at first touch, in either direction.
         Up to 1 the pier stays elastic.

@@ -70,6 +70,14 @@ class Collision:
     ------
     InputError
         When truck or pier is of another type, a beam is to yield, or the speed is not positive.
+
+    Examples
+    --------
+    >>> from pierimpact import Collision, EquivalentPier, load_truck
+    >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
+    >>> collision = Collision(load_truck("single-unit-8t"), pier, speed=20.0)
+    >>> round(collision.energy / 1e6, 3)  # MJ
+    1.6
     """
 
     truck: Truck

@@ -25,7 +25,7 @@ STEPS = 10_000  # limit; no collision of the studied domain takes a hundredth of
 TOGETHER = 2_000  # of them side by side; one that takes more goes on alone
 LONGER = 100_000  # as many more where a longer history is asked for
 SHOWN = 10  # indices in a warning
-PATIENCE, AGAIN = 48, 16  # steps in one regime before it is looked at by itself, and again
+PATIENCE, AGAIN = 96, 16  # steps in one regime before it is looked at by itself, and again
 
 Record: TypeAlias = Callable[[State, LinearMotion, float], None]
 

@@ -47,6 +47,16 @@ def simulate(
     RuntimeError
         When the collision does not come to an end within a limit of steps, far beyond what any
         real truck and pier need.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier, load_truck, simulate
+    >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
+    >>> history = simulate(load_truck("single-unit-8t"), pier, speed=22.2)
+    >>> history.governs
+    'cargo'
+    >>> round(history.governing_peak.reaction / 1e6, 2)  # MN
+    4.88
     """
     collision, duration = Collision(truck, pier, speed), not_negative("duration", duration)
     if isinstance(collision.pier, BeamPier):
@@ -144,8 +154,24 @@ def peak_reactions(
     Warns
     -----
     UnfinishedWarning
-        When a collision does not come to an end within a limit of steps, far beyond what any real
-        truck and pier need; all its results are nan, and the warning has its index.
+        When a collision does not come to an end within a limit of steps; all its results are nan,
+        and the warning has its index. That is outside of the model's domain: a pier that has less
+        than a twentieth of the truck's mass and hardly resists, far below 1 Hz or with a yield
+        reaction of some kN, is driven along for metres and bounces on the truck thousands of times
+        before it has stopped it. No real truck and pier need a hundredth of the limit.
+
+    Examples
+    --------
+    >>> from pierimpact import load_truck, peak_reactions
+    >>> peaks = peak_reactions(
+    ...     load_truck("single-unit-8t"),
+    ...     pier_mass=8e3,
+    ...     pier_stiffness=[100e6, 300e6],
+    ...     damping_ratio=0.05,
+    ...     speed=22.2,
+    ... )
+    >>> (peaks.engine / 1e6).round(2)  # MN
+    array([2.18, 2.8 ])
     """
     shape, chunks = parameter_chunks(
         truck, pier_mass, pier_stiffness, damping_ratio, speed, yield_reaction

@@ -52,6 +52,7 @@ ENGINE, BODY, PIER = range(3)  # order of δ1, δ2 and x_p in a series
 PIER_EXTREME = 8  # of its displacement: an event, but not a change of regime
 
 # Numerical settings.
+LATE = 10.0  # swings of the pier after which a body at rest is looked at more closely
 TOLERANCE = 1e-13  # by which a bound is passed before its regime ends, relative to its scale
 INACTIVE = -math.inf  # level of a quantity that ends no regime
 HOLDING_WEIGHT = 1e-4  # of the holding force: its round-off is larger, by the stiffness
@@ -320,7 +321,52 @@ def prospects(
 
     engine_left = (state.engine.regime == FREE) & (v1 <= 0.0)
     body_left = ((state.body.regime == FREE) & (v2 <= 0.0)) | state.stuck
-    return no_contact & no_peak, engine_left & body_left
+    decided = no_contact & no_peak
+    late = engine_left & ops.negate(parameters.on_pier) & (v2 <= 0.0)
+    late = late & (state.time > LATE * swing(parameters, ops))
+    if ops.some(late):
+        decided = decided | (late & at_rest(parameters, state, pier_energy, F2, v2, peak, ops))
+    return decided, engine_left & body_left
+
+
+def at_rest(
+    parameters: Parameters,
+    state: State,
+    pier_energy: Real,
+    force: Real,
+    speed: Real,
+    peak: Real,
+    ops: Ops,
+) -> Flag:
+    """Say whether nothing can come of a pier that swings against a body at rest on the road.
+
+    An undamped pier moves such a body back a little at each swing, ever less, and would go on for
+    thousands. The engine has left, and the body's spring, whose force is F2 now, can only push the
+    body back, with a speed v2 now. For the pier to reach a displacement x, the body may stay, and
+    its spring keeps F²/(2 k_u) of the energy, F being its force there; or slide back until that is
+    c_s, which takes c_s per length: (c_s F − c_s²/2)/k_u in all. Derived here.
+    """
+    where, body = ops.where, parameters.body
+    stiffness, friction = body.unloading_stiffness, parameters.friction_force
+    # What the force would be at a displacement, with a gap as a negative one.
+    gap = state.position.d2 - state.body.upper
+    now = where(state.body.regime == FREE, stiffness * gap, force)
+    energy = pier_energy + 0.5 * (force**2 / stiffness + body.mass * speed**2)
+    target = peak
+    if state.yielding is not None:
+        limit = state.yielding.limit
+        target = where(peak >= limit * (1.0 - ROUND_OFF), limit, peak)
+    there = now - stiffness * (target - state.position.xp)
+    there = where(there > 0.0, there, 0.0)
+    kept = where(there > friction, friction * (there - 0.5 * friction), 0.5 * there**2) / stiffness
+    out_of_reach = 2.0 * energy <= parameters.pier_stiffness * target**2 * (1.0 + 1e-9) + 2.0 * kept
+    # Neither does the pier come back to the engine, nor the body's spring to its end.
+    behind = state.position.d1 + state.position.xp - state.engine.upper
+    apart = (behind < 0.0) & (parameters.pier_stiffness * behind**2 > 2.0 * energy)
+    needed = 0.5 * body.plateau_force**2 / stiffness
+    needed = needed + body.plateau_force * (body.plateau_length - state.body.largest)
+    no_contact = (state.cargo_contact == state.cargo_contact) | (needed > energy)
+    return out_of_reach & apart & no_contact
 
 
 def kept_by_spring(

@@ -173,6 +173,17 @@ def reaction_band(
     ------
     InputError
         As in `Collision`, and when the size is not positive or a spread breaks a rule.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier, load_truck, reaction_band
+    >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
+    >>> band = reaction_band(load_truck("single-unit-8t"), pier, speed=22.2, size=64)
+    >>> band.governing.shape
+    (64,)
+    >>> low, high = band.quantiles((0.05, 0.95))
+    >>> bool(low < band.nominal < high)
+    True
     """
     collision = Collision(truck, pier, speed)
     size, seed = whole("size", size, 1), whole("seed", seed, 0)

@@ -167,6 +167,16 @@ def fit_truck(
     ------
     InputError
         As in `Record` and `fit_records`.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier, fit_truck, load_truck, simulate
+    >>> truck = load_truck("single-unit-8t")
+    >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
+    >>> history = simulate(truck, pier, speed=22.2)
+    >>> fit = fit_truck(history.time, history.contact_force, start=truck, speed=22.2, pier=pier)
+    >>> round(fit.truck.engine_mass)
+    700
     """
     record = Record(
         time=np.asarray(time),

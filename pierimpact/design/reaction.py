@@ -137,6 +137,16 @@ def design_reaction(
     ------
     InputError
         As in `Collision`, and when the level is unknown.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier, design_reaction, load_truck
+    >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
+    >>> design = design_reaction(load_truck("single-unit-8t"), pier, speed=22.2)
+    >>> design.governs
+    'cargo'
+    >>> round(design.reaction / 1e6, 2)  # MN
+    5.09
     """
     collision = Collision(truck, pier, speed)
     found = design_values(collision.parameters, level)
@@ -155,6 +165,13 @@ def design_reactions(
     """Return the design reactions of many piers; arguments as in `peak_reactions`.
 
     Beside them `level`, as in `design_reaction`.
+
+    Examples
+    --------
+    >>> from pierimpact import design_reactions, load_truck
+    >>> design = design_reactions(load_truck("single-unit-8t"), 8e3, [100e6, 300e6], 0.05, 22.2)
+    >>> (design.reaction / 1e6).round(2)  # MN
+    array([5.56, 5.07])
     """
     calculation_of(level)  # an error here, before anything is calculated
     shape, chunks = parameter_chunks(truck, pier_mass, pier_stiffness, damping_ratio, speed)

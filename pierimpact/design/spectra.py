@@ -65,6 +65,14 @@ def engine_spectrum(
     ------
     InputError
         When a value is out of range or the level unknown.
+
+    Examples
+    --------
+    >>> from pierimpact import engine_spectrum, load_truck
+    >>> truck = load_truck("single-unit-8t")
+    >>> spectrum = engine_spectrum(truck, 22.2, pier_mass=8e3, frequency=[10.0, 100.0])
+    >>> (spectrum.full_model / 1e6).round(2)  # MN
+    array([1.87, 7.52])
     """
     return _spectrum(1, truck, speed, pier_mass, damping_ratio, frequency, level)
 
@@ -77,7 +85,16 @@ def cargo_spectrum(
     frequency: ArrayLike = FREQUENCIES,
     level: str = "short",
 ) -> Spectrum:
-    """Return the cargo's reaction against pier frequency; arguments as in `engine_spectrum`."""
+    """Return the cargo's reaction against pier frequency; arguments as in `engine_spectrum`.
+
+    Examples
+    --------
+    >>> from pierimpact import cargo_spectrum, load_truck
+    >>> truck = load_truck("single-unit-8t")
+    >>> spectrum = cargo_spectrum(truck, 22.2, pier_mass=8e3, frequency=[10.0, 100.0])
+    >>> (spectrum.full_model / 1e6).round(2)  # MN
+    array([5.12, 4.33])
+    """
     return _spectrum(2, truck, speed, pier_mass, damping_ratio, frequency, level)
 
 

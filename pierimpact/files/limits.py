@@ -11,6 +11,7 @@ from pierimpact.checks import InputError, brief
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import SYSTEMS, Printed, rounded, unit_of, unit_size
 
+# Of either spring, in SI units: this project's choice.
 _SPRING = {
     "plateau_force": (1.0, 1e9),
     "plateau_length": (1e-6, 50.0),

@@ -90,6 +90,12 @@ def load_truck(name_or_path: str | Path) -> Truck:
     ------
     InputError
         When there is no such truck, or its file breaks a rule.
+
+    Examples
+    --------
+    >>> from pierimpact import load_truck
+    >>> load_truck("single-unit-8t").mass
+    8000.0
     """
     return read_truck_file(name_or_path).truck
 

@@ -50,11 +50,9 @@ def write_portfolio(
     InputError
         When a file cannot be written.
     """
-    addresses: dict[int, str] = {}
-    if whole("sheets", sheets, 0):
-        addresses = _write_sheets(portfolio, table, folder, system, sheets, say)
+    whole("sheets", sheets, 0)
     contents = {
-        folder / PAGE: summary_page(portfolio, system, addresses),
+        folder / PAGE: summary_page(portfolio, system, {}),
         folder / RESULTS_CSV: results_csv(portfolio, system),
         folder / REJECTS: rejects_csv(portfolio.rejects),
     }
@@ -64,6 +62,10 @@ def write_portfolio(
     else:
         contents[folder / RESULTS_PARQUET] = parquet
     write_files(contents)
+    if not sheets:
+        return list(contents)
+    addresses = _write_sheets(portfolio, table, folder, system, sheets, say)
+    write_files({folder / PAGE: summary_page(portfolio, system, addresses)})
     return [*contents, *(folder / address for address in addresses.values())]
 
 

@@ -26,7 +26,7 @@ SHOWN = (
     *("largest_moment", "moment_method", "utilisation_moment", "truck", "truck_mass", "speed"),
     *("pier_frequency", "average_25ms", "latitude", "longitude"),
 )
-#: Quantiles of the table, by their heading.
+#: Quantiles of the table, by their heading: this project's choice.
 QUANTILES = {"5 %": 0.05, "median": 0.5, "95 %": 0.95, "99 %": 0.99, "largest": 1.0}
 _OF_THE_TABLE = {
     "design_reaction": "Design reaction",
@@ -121,6 +121,7 @@ def _picture(svg: str) -> str:
 def _statement(portfolio: Portfolio) -> str:
     utilisation = portfolio.numbers["utilisation"]
     rated = int(np.count_nonzero(np.isfinite(utilisation)))
+    # Exactly: a utilisation above one is a resistance exceeded.
     exceeded = int(np.count_nonzero(utilisation > 1.0))
     if not rated:
         return f"{len(utilisation):,} piers; no row gives a resistance, so nothing is checked."
@@ -130,6 +131,7 @@ def _statement(portfolio: Portfolio) -> str:
 def _remarks(portfolio: Portfolio) -> Iterator[str]:
     numbers, words = portfolio.numbers, portfolio.words
     count, utilisation = len(numbers["rank"]), numbers["utilisation"]
+    # Exactly, as above.
     at_upper = int(np.count_nonzero((utilisation <= 1.0) & (numbers["utilisation_high"] > 1.0)))
     if at_upper:
         yield (
@@ -143,7 +145,7 @@ def _remarks(portfolio: Portfolio) -> Iterator[str]:
     low = int(np.count_nonzero(words["static_forces"] != "hold"))
     if low:
         yield (
-            f"Static member forces may be too low for {low:,} piers; {beams:,} in all are "
+            f"Static member forces may be too low for {low:,} of the piers; {beams:,} in all are "
             f"calculated as a {BEAM}, and the others of these are checked under the largest "
             "contact force as a static force, unless their row asks for the static reaction."
         )

@@ -48,6 +48,12 @@ class Step:
     ------
     InputError
         When the height is not a number or the section not a section.
+
+    Examples
+    --------
+    >>> from pierimpact import CircularSection, Step
+    >>> Step(height=2.0, section=CircularSection(diameter=1.0)).height
+    2.0
     """
 
     height: float
@@ -103,6 +109,16 @@ class PierColumn:
     InputError
         When a value is out of its range, both kinds of stiffness are given, a step is not above
         the one below it and within the column, or the ends leave the column a mechanism.
+
+    Examples
+    --------
+    >>> from pierimpact import CircularSection, PierColumn
+    >>> column = PierColumn(
+    ...     height=5.0, section=CircularSection(diameter=0.9), elastic_modulus=25e9, density=2400.0
+    ... )
+    >>> pier = column.equivalent(impact_height=1.2)
+    >>> round(pier.frequency, 1)
+    85.0
     """
 
     height: float

@@ -68,6 +68,13 @@ class EquivalentPier:
     InputError
         When mass, stiffness or yield reaction is not positive, or the damping ratio is out of
         range.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier
+    >>> pier = EquivalentPier(mass=8e3, stiffness=284e6)
+    >>> round(pier.frequency, 2)
+    29.99
     """
 
     mass: float

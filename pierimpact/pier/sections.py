@@ -279,6 +279,12 @@ class CircularSection(_Round):
     ------
     InputError
         When a value is not positive, or κ exceeds 1.
+
+    Examples
+    --------
+    >>> from pierimpact import CircularSection
+    >>> round(CircularSection(diameter=1.0).area, 4)
+    0.7854
     """
 
     calculation = circle
@@ -301,6 +307,13 @@ class RectangularSection(_Wide):
     ------
     InputError
         When a value is not positive, or κ exceeds 1.
+
+    Examples
+    --------
+    >>> from pierimpact import RectangularSection
+    >>> section = RectangularSection(width=0.8, depth=1.2)
+    >>> round(section.second_moment, 4)
+    0.1152
     """
 
     calculation = rectangle
@@ -323,6 +336,13 @@ class HollowCircularSection(_Round):
     ------
     InputError
         When a value is not positive, the wall leaves no hole, or κ exceeds 1.
+
+    Examples
+    --------
+    >>> from pierimpact import HollowCircularSection
+    >>> section = HollowCircularSection(diameter=2.0, wall_thickness=0.3)
+    >>> round(section.area, 4)
+    1.6022
     """
 
     calculation = hollow_circle
@@ -351,6 +371,13 @@ class HollowRectangularSection(_Wide):
     ------
     InputError
         When a value is not positive, the walls leave no hole, or κ exceeds 1.
+
+    Examples
+    --------
+    >>> from pierimpact import HollowRectangularSection
+    >>> section = HollowRectangularSection(width=2.0, depth=3.0, wall_thickness=0.3)
+    >>> round(section.area, 4)
+    2.64
     """
 
     calculation = hollow_rectangle
@@ -376,6 +403,12 @@ class OblongSection(_Wide):
     ------
     InputError
         When a value is not positive, or κ exceeds 1.
+
+    Examples
+    --------
+    >>> from pierimpact import OblongSection
+    >>> round(OblongSection(width=1.0, depth=3.0).area, 4)
+    2.7854
     """
 
     calculation = oblong
@@ -408,6 +441,12 @@ class RegularPolygonSection(_Shape):
     ------
     InputError
         When a value is not positive, the sides are not a whole number, or κ exceeds 1.
+
+    Examples
+    --------
+    >>> from pierimpact import RegularPolygonSection
+    >>> round(RegularPolygonSection(sides=8, across_flats=1.2).area, 4)
+    1.1929
     """
 
     calculation = regular_polygon
@@ -466,6 +505,12 @@ class FreeSection(Section):
     ------
     InputError
         When a value is not positive, or the shear area exceeds the area.
+
+    Examples
+    --------
+    >>> from pierimpact import FreeSection
+    >>> FreeSection(area=0.66, second_moment=0.034, shear_area=0.59).shear_area
+    0.59
     """
 
     calculation = free_section
@@ -535,6 +580,15 @@ class FilledCircularSection(_Filled, _Round):
     ------
     InputError
         When a value is not positive, the wall leaves no core, or κ exceeds 1.
+
+    Examples
+    --------
+    >>> from pierimpact import FilledCircularSection
+    >>> section = FilledCircularSection(
+    ...     diameter=0.8, wall_thickness=0.012, modular_ratio=6.5, density_ratio=3.2
+    ... )
+    >>> round(section.area, 4)
+    0.666
     """
 
     calculation = filled_circle
@@ -563,6 +617,15 @@ class FilledRectangularSection(_Filled, _Wide):
     ------
     InputError
         When a value is not positive, the wall leaves no core, or κ exceeds 1.
+
+    Examples
+    --------
+    >>> from pierimpact import FilledRectangularSection
+    >>> section = FilledRectangularSection(
+    ...     width=0.6, depth=0.8, wall_thickness=0.012, modular_ratio=6.5, density_ratio=3.2
+    ... )
+    >>> round(section.area, 4)
+    0.6616
     """
 
     calculation = filled_rectangle

@@ -1,17 +1,62 @@
 """Figures, drawn as SVG with text as outlines: they look the same whatever fonts there are."""
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, ParamSpec
 
 import numpy as np
+from matplotlib.figure import Figure
 
+from pierimpact.checks import InputError
 from pierimpact.design.sensitivity import Sensitivity
-from pierimpact.plots.style import BLUE, VERMILION, logarithmic, sheet_figure, to_svg
+from pierimpact.plots.style import BLUE, KEPT, VERMILION, logarithmic, sheet_figure, to_svg
 from pierimpact.units import unit_of, unit_size
+
+P = ParamSpec("P")
 
 MODEL, DESIGN = "full model", "design procedure"
 #: Lines of the full model and of a closed form beside it.
 EXACT: Any = {"color": BLUE, "linewidth": 1.4}
 CLOSED: Any = {"color": VERMILION, "linewidth": 1.0, "dashes": (5, 2)}
+
+
+def figure_of(draw: Callable[P, object], *args: P.args, **kwargs: P.kwargs) -> Figure:
+    """Return the matplotlib figure that a function draws, where it would return SVG or a block.
+
+    Parameters
+    ----------
+    draw : callable
+        A function that draws one figure: any `draw_…` of `pierimpact.plots`, or a block of a
+        `Sheet` that is a figure. What follows is passed to it.
+
+    Returns
+    -------
+    Figure
+        The figure, to change and to save with its own methods.
+
+    Raises
+    ------
+    InputError
+        When the function draws no figure.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier, load_truck, simulate
+    >>> from pierimpact.plots.history import draw_history
+    >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
+    >>> history = simulate(load_truck("single-unit-8t"), pier, speed=22.2)
+    >>> figure = figure_of(draw_history, history, "SI")
+    >>> figure.axes[0].get_ylabel()
+    'Force [MN]'
+    """
+    figures: list[Figure] = []
+    before = KEPT.set(figures)
+    try:
+        draw(*args, **kwargs)
+    finally:
+        KEPT.reset(before)
+    if not figures:
+        raise InputError(f"draw must draw a figure, got {getattr(draw, '__name__', draw)}")
+    return figures[0]
 
 
 def name_spectra(panels: Any, frequency: Any, models: tuple[Any, Any], system: str) -> None:

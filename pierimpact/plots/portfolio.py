@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.colors import ListedColormap
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 from numpy.typing import NDArray
 
 from pierimpact.plots.style import BLUE, GREY, VERMILION, sheet_figure, to_svg
@@ -57,6 +57,7 @@ def draw_distributions(
             if values is code_ratio or values is utilisation:
                 axes.axvline(1.0, color=VERMILION, linewidth=1.0)
             axes.set_ylabel("Piers")
+            axes.yaxis.set_major_locator(MaxNLocator(integer=True))
             axes.set_xlim(left=0.0)
         return to_svg(figure)
 

@@ -4,6 +4,7 @@ import io
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 from matplotlib import rc_context
@@ -135,9 +136,15 @@ def page_figure(
         yield figure
 
 
+#: The figures that are drawn, where somebody asks for them.
+KEPT: ContextVar[list[Figure] | None] = ContextVar("KEPT", default=None)
+
+
 def to_svg(figure: Figure) -> str:
     """Return a figure as SVG, without its date."""
     buffer = io.StringIO()
+    if (kept := KEPT.get()) is not None:
+        kept.append(figure)
     figure.savefig(buffer, format="svg", metadata={"Date": None})
     return buffer.getvalue()
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from pierimpact.checks import InputError
 from pierimpact.collision.averages import AverageForce, largest_average_force
@@ -265,6 +265,45 @@ class Calculation:
             for name, resistance in resistances.items()
             if resistance is not None
         }
+
+    def to_dataframe(self) -> Any:
+        """Return the results as a pandas table: a row for each, its value in SI units and its unit.
+
+        What there is none of, as the peak of a cargo that does not meet the pier, is nan. The
+        column "value" of several cases side by side is their summary: `pandas.concat`.
+
+        Raises
+        ------
+        ModuleNotFoundError
+            When pandas is not installed.
+        """
+        try:
+            from pandas import DataFrame
+        except ModuleNotFoundError as error:
+            message = "to_dataframe needs pandas: pip install pandas"
+            raise ModuleNotFoundError(message, name=error.name) from None
+        history, cargo = self.history, self.history.cargo_peak
+        low, _, high = self.band.quantiles() if self.band.spread else (None, None, None)
+        utilisations = self.utilisations
+        rows = {
+            "impact_height": (self.struck.impact_height, "m"),
+            "pier_mass": (self.pier.mass, "kg"),
+            "pier_stiffness": (self.pier.stiffness, "N/m"),
+            "pier_frequency": (self.pier.frequency, "Hz"),
+            "engine_peak": (history.engine_peak.reaction, "N"),
+            "cargo_peak": (None if cargo is None else cargo.reaction, "N"),
+            "design_reaction": (self.design_force, "N"),
+            "hand_reaction": (self.short.reaction, "N"),
+            "band_low": (low, "N"),
+            "band_high": (high, "N"),
+            "largest_shear": (self.demands["shear"].value, "N"),
+            "largest_moment": (self.demands["moment"].value, "N m"),
+            "code_ratio": (self.code_ratio, "-"),
+            "shear_utilisation": (utilisations.get("shear"), "-"),
+            "moment_utilisation": (utilisations.get("moment"), "-"),
+        }
+        frame = DataFrame.from_dict(rows, orient="index", columns=["value", "unit"])
+        return frame.astype({"value": float})
 
 
 def calculate(case: Case) -> Calculation:

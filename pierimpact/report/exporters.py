@@ -11,6 +11,7 @@ import importlib.util
 import re
 import string
 import subprocess
+import unicodedata
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -398,7 +399,7 @@ def compile_typst(
                 raise RuntimeError(f"Typst stopped: {error}") from None
             if not isinstance(error, typst.TypstError):
                 raise
-            found = sorted(set(_undisplayed(error)) - set(missing))
+            found = _to_number(set(_undisplayed(error)) - set(missing))
             if not found:
                 raise
         if options["ignore_system_fonts"]:
@@ -406,6 +407,17 @@ def compile_typst(
         else:
             missing += "".join(found)
             source = "".join(f"[U+{ord(c):04X}]" if c in found else c for c in source)
+
+
+def _to_number(characters: set[str]) -> list[str]:
+    """Return which characters of clusters that no font displays print as their numbers.
+
+    Marks that stand on others go first, as it may be for them alone. What is ASCII never does:
+    every font has it, and Typst's own words are made of it.
+    """
+    others = sorted(c for c in characters if not c.isascii())
+    marks = [c for c in others if unicodedata.category(c) in ("Mn", "Mc", "Me", "Cf")]
+    return marks or others
 
 
 def _undisplayed(error: typst.TypstError) -> str:

@@ -196,8 +196,7 @@ def case_risk(
         When the case gives no traffic, or size or seed is out of range.
     """
     if case.traffic is None:
-        missing = next(key for key in NEEDED if getattr(case.inputs, key) is None)
-        raise InputError(f"{missing} is missing: a risk needs {', '.join(NEEDED)}")
+        raise InputError(missing_traffic(case))
     calculation = calculate(case)
     found = risk(
         case.traffic.traffic,
@@ -209,6 +208,12 @@ def case_risk(
         progress=progress,
     )
     return CaseRisk(case=case, calculation=calculation, traffic=case.traffic, risk=found)
+
+
+def missing_traffic(case: Case) -> str:
+    """Return what a case without traffic does not give, in one line."""
+    missing = next(key for key in NEEDED if getattr(case.inputs, key) is None)
+    return f"{missing} is missing: a risk needs {', '.join(NEEDED)}"
 
 
 class Line(NamedTuple):

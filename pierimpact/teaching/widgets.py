@@ -110,7 +110,7 @@ def risk() -> Explorer:
             *("traffic_volume", "truck_share", "distance_from_road", "mean_mass", "mean_speed"),
             *("resistance", "risk_pier"),
         ],
-        height=52,
+        height=40,
         kind="risk",
         presampled=presampled.data(),
     )

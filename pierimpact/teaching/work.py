@@ -10,12 +10,14 @@ from typing import Any
 
 import pierimpact
 from pierimpact.checks import InputError, brief, one_line
+from pierimpact.files.reading import read_text
 from pierimpact.teaching.checker import Progress, Question, Verdict, check, progress
 from pierimpact.teaching.questions import LESSONS, lesson, questions
 
 #: How the names of the files end.
 ENDING = ".answers.json"
 _LONGEST_NAME = 80  # letters
+_MOST = 1_000_000  # length of a file [bytes]
 
 
 @dataclass
@@ -109,9 +111,9 @@ def read_work(path: Path) -> Work:
         When it cannot be read, or is not such a file; the message says why in one line.
     """
     try:
-        content = json.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise InputError(f"it cannot be read: {error.strerror}") from None
+        content = json.loads(read_text(path, _MOST)[1])
+    except InputError as error:
+        raise InputError(f"it {error}") from None
     except (ValueError, RecursionError):
         raise InputError("it is damaged: not the text of a JSON file") from None
     try:

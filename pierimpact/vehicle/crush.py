@@ -32,6 +32,15 @@ class CrushSpring:
     ------
     InputError
         When a value is not positive, k_u < k, or d < P/k_u.
+
+    Examples
+    --------
+    >>> from pierimpact import CrushSpring
+    >>> spring = CrushSpring(
+    ...     plateau_force=150e3, plateau_length=0.5, stiffness=150e6, unloading_stiffness=900e6
+    ... )
+    >>> round(float(spring.envelope(0.51)) / 1e6, 2)  # MN
+    1.65
     """
 
     plateau_force: float

@@ -29,6 +29,12 @@ class Uniform:
     ------
     InputError
         When the value is not between the bounds, or the lower bound is negative.
+
+    Examples
+    --------
+    >>> from pierimpact import Uniform
+    >>> Uniform.about(0.3).words
+    '±30 %'
     """
 
     low: float
@@ -80,6 +86,12 @@ class Lognormal:
     ------
     InputError
         When it is not.
+
+    Examples
+    --------
+    >>> from pierimpact import Lognormal
+    >>> Lognormal(0.1).words
+    'c.o.v. 10 %'
     """
 
     coefficient_of_variation: float

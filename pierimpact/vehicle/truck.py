@@ -58,6 +58,15 @@ class Truck:
     InputError
         When a mass is not positive, the friction is negative, `friction_on` is unknown, a spread
         is of no parameter or lets it be zero, or the mass range does not run upward.
+
+    Examples
+    --------
+    >>> from pierimpact import load_truck
+    >>> truck = load_truck("single-unit-8t")
+    >>> truck.engine_mass, truck.body_mass
+    (700.0, 7300.0)
+    >>> truck.with_mass(10e3).body_mass
+    9300.0
     """
 
     name: str

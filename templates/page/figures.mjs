@@ -1,7 +1,7 @@
 // Charts of what is calculated elsewhere: lines, and bars in rows.
 import { element, path, roundUp, tag, text, ticks } from "./chart.mjs";
 
-const TOP = 30, RIGHT = 16, BOTTOM = 42, BAR = 24, ROW = 17; // margins and heights of rows [px]
+const TOP = 30, RIGHT = 22, BOTTOM = 42, BAR = 24, ROW = 17; // margins and heights of rows [px]
 const LETTER = 7; // width of one, rather more than less [px]
 
 function scale({ low, high, log }, first, last) {

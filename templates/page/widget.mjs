@@ -3,12 +3,12 @@ import { Charts } from "./charts.mjs";
 import { button, make } from "./controls.mjs";
 import { Explorer } from "./explorer.mjs";
 
-let count = 0; // of the explorers on a page, whose ids must differ
-
 /** Put an explorer into an element; `told` as it is by an `Explorer`, where there is a kernel. */
 export function explore(el, setup, told = () => {}) {
   const Kind = setup.kind ? Charts : Explorer;
-  const explorer = new Kind(el, { ...setup, id: `explorer${(count += 1)}-` }, told);
+  // Of its own: each explorer of a notebook has these modules for itself, so none can count the others.
+  const id = `explorer-${Math.random().toString(36).slice(2)}-`;
+  const explorer = new Kind(el, { ...setup, id }, told);
   const reset = button("Reset", "", () => {
     explorer.set(setup.defaults);
     told(explorer.values);
