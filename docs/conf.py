@@ -77,4 +77,4 @@ def _write_live_page(app: Any, exception: Exception | None) -> None:
     if exception is None and app.builder.format == "html":
         from pierimpact.teaching.page import write_page
 
-        write_page(Path(app.outdir) / "live.html")
+        write_page(Path(app.outdir) / "explorer.html")

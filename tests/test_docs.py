@@ -85,7 +85,7 @@ def _target(page, link):
 def test_every_link_within_it_leads_somewhere(pages):
     broken = []
     for page, content in pages.items():
-        for link in content.links:
+        for link in (*content.links, *content.loads):
             if urlsplit(link).scheme or link == "#":
                 continue
             file, anchor = _target(page, link)
@@ -135,6 +135,11 @@ def test_search_finds_words_of_all_parts(site):
     assert index.startswith("Search.setIndex(")  # a script: a page from a disk may load it
     for word in ("timoshenko", "sobol", "deadlin", "simul"):
         assert f'"{word}"' in index or f"{word}:" in index
+
+
+def test_the_page_without_python_stands_in_one_of_the_site(site, pages):
+    assert "explorer.html" in pages[site / "live.html"].loads
+    assert "Content-Security-Policy" in (site / "explorer.html").read_text("utf-8")
 
 
 def test_its_formulas_are_mathml(site):
