@@ -2,6 +2,7 @@
 
 import base64
 import io
+import re
 from xml.etree import ElementTree
 
 import nbformat.v4
@@ -83,7 +84,7 @@ def test_an_explorer_acts_in_the_page_of_a_lesson_and_asks_for_nothing(tmp_path)
     del lesson.cells[0]  # or else it is a sheet
     (tmp_path / "page.html").write_text(SheetHTMLExporter().from_notebook_node(lesson)[0], "utf-8")
     shown, requests = shown_by_browser(tmp_path / "page.html", tmp_path)
-    assert '<b id="said">it ran</b>' in shown
+    assert re.search('<b id="said">(it ran)+</b>', shown)
     assert requests == set()
 
 

@@ -46,7 +46,7 @@ def figure_of(draw: Callable[P, object], *args: P.args, **kwargs: P.kwargs) -> F
     >>> history = simulate(load_truck("single-unit-8t"), pier, speed=22.2)
     >>> figure = figure_of(draw_history, history, "SI")
     >>> figure.axes[0].get_ylabel()
-    'Force [MN]'
+    'Force [kN]'
     """
     figures: list[Figure] = []
     before = KEPT.set(figures)

@@ -234,7 +234,7 @@ export class Explorer {
       while (performance.now() < end) {
         if (!refinement.next().done) continue;
         this.shown = framed(points, now, range);
-        this.#showSpectra();
+        if (!this.#refused()) this.#showSpectra(); // which marks the pier of the values there are now
         return;
       }
       this.refining = setTimeout(slice);

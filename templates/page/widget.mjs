@@ -7,7 +7,7 @@ import { Explorer } from "./explorer.mjs";
 export function explore(el, setup, told = () => {}) {
   const Kind = setup.kind ? Charts : Explorer;
   // Of its own: each explorer of a notebook has these modules for itself, so none can count the others.
-  const id = `explorer-${Math.random().toString(36).slice(2)}-`;
+  const id = `explorer${Math.random().toString(36).slice(2)}-`;
   const explorer = new Kind(el, { ...setup, id }, told);
   const reset = button("Reset", "", () => {
     explorer.set(setup.defaults);
