@@ -38,9 +38,11 @@ napoleon_use_rtype = False
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 nb_execution_mode = "cache"
+# Widgets and blocks stand beside HTML that shows the same.
+suppress_warnings = ["mystnb.mime_priority", "mystnb.unknown_mime_type"]
 if "quick" in globals()["tags"]:
     nb_execution_mode = "off"
-    suppress_warnings = ["myst-nb.lexer"]  # the kernel would say which language it is
+    suppress_warnings.append("myst-nb.lexer")  # the kernel would say which language it is
 nb_execution_cache_path = str(HERE / "_build" / "executed")
 nb_execution_timeout = 300
 nb_execution_raise_on_error = True
