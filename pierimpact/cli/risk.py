@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from pierimpact.checks import InputError, whole
+from pierimpact.cli.network import add_workers
 from pierimpact.cli.terminal import complain, needs, progress_bar
 
 _RISK = """\
@@ -37,15 +38,11 @@ def add_risk(commands: Any) -> None:
     options: dict[str, dict[str, Any]] = {
         "samples": {"metavar": "N", "type": int, "help": "trucks to draw (default: 32768)"},
         "seed": {"metavar": "S", "type": int, "default": 0, "help": "seed (default: 0)"},
-        "workers": {"metavar": "N", "type": int, "help": "processes (default: one a core)"},
-        "scheduler": {
-            "metavar": "ADDRESS",
-            "help": "Dask scheduler that does the work, such as tcp://10.0.0.1:8786",
-        },
         "output": {"metavar": "DIR", "help": "folder to write the page and the curve to"},
     }
     for name, option in options.items():
         risk.add_argument(f"--{name}", **option)
+    add_workers(risk)
     risk.add_argument("--json", action="store_true", help="print a JSON object, in SI units")
     risk.set_defaults(run=_risk)
 

@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from typing import Any
 
 from pierimpact.checks import shortened
 
@@ -29,26 +30,25 @@ def needs(what: str, error: ModuleNotFoundError) -> int:
 
 
 @contextmanager
-def progress_bar(unit: str, total: int | None = None) -> Iterator[Callable[[int], object]]:
+def progress_bar(
+    unit: str, total: int | None = None, **options: Any
+) -> Iterator[Callable[[int], object]]:
     """Give the update of a progress bar on a terminal, where tqdm is installed."""
     try:
         from tqdm import tqdm
     except ModuleNotFoundError:
         yield lambda count: None
         return
-    with tqdm(total=total, unit=f" {unit}", disable=None, leave=False) as bar:
+    with tqdm(total=total, unit=f" {unit}", disable=None, **{"leave": False, **options}) as bar:
         yield bar.update
 
 
 @contextmanager
 def progress_bars() -> Iterator[Callable[[str, int], Callable[[int], object]]]:
     """Give what starts a bar with rate and time left, of a unit and its total, on a terminal."""
-    from tqdm import tqdm
-
     with ExitStack() as bars:
 
         def start(unit: str, total: int) -> Callable[[int], object]:
-            bar = tqdm(total=total, unit=f" {unit}", disable=None, smoothing=0.05)
-            return bars.enter_context(bar).update
+            return bars.enter_context(progress_bar(unit, total, leave=True, smoothing=0.05))
 
         yield start

@@ -1,6 +1,5 @@
 """Force records: a CSV file of times and forces, whose heading names quantities and units."""
 
-import csv
 import hashlib
 import math
 import re
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from pierimpact.checks import InputError, brief, did_you_mean, shortened
 from pierimpact.collision.records import FEWEST, QUANTITIES
+from pierimpact.files.csv_lines import csv_cells, csv_lines
 from pierimpact.files.reading import read_text
 from pierimpact.units import parse
 
@@ -61,16 +61,8 @@ def read_record_file(path: str | Path) -> RecordFile:
 
 def _columns(text: str) -> tuple[str, Array, Array]:
     """Return the quantity, times [s] and forces [N] of a file's text."""
-    lines = [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not lines:
-        raise InputError(f"must have a heading, {_EXAMPLE}; got nothing")
-    (first, heading), *rest = lines
-    separator = next((mark for mark in ";\t" if mark in heading), ",")
-    names, sizes = _heading(first, _cells(first, heading, separator))
+    ((first, heading), *rest), separator = csv_lines(text, _EXAMPLE)
+    names, sizes = _heading(first, csv_cells(first, heading, separator))
     rows = [(number, _numbers(number, line, separator, names)) for number, line in rest]
     if len(rows) < FEWEST:
         raise InputError(f"must have at least {FEWEST} rows of numbers, got {len(rows)}")
@@ -92,15 +84,6 @@ def _columns(text: str) -> tuple[str, Array, Array]:
             f"its largest value is {largest:g}"
         )
     return names[1 - column], time, force
-
-
-def _cells(row: int, line: str, separator: str) -> list[str]:
-    if '"' not in line:
-        return [cell.lstrip() for cell in line.split(separator)]
-    try:
-        return next(csv.reader([line], delimiter=separator, skipinitialspace=True))
-    except csv.Error as error:
-        raise InputError(f"row {row}: is not CSV: {error}") from None
 
 
 def _heading(row: int, cells: list[str]) -> tuple[list[str], Array]:
@@ -134,7 +117,7 @@ def _heading(row: int, cells: list[str]) -> tuple[list[str], Array]:
 
 def _numbers(row: int, line: str, separator: str, names: list[str]) -> list[float]:
     """Return the numbers of a row."""
-    cells = _cells(row, line, separator)
+    cells = csv_cells(row, line, separator)
     if len(cells) != len(names):
         hint = ""
         if separator == "," and len(cells) == 2 * len(names):

@@ -1,8 +1,6 @@
 """Weigh-in-motion samples: a CSV file with the mass of each truck, and perhaps its speed."""
 
-import csv
 import hashlib
-import io
 import math
 import re
 from pathlib import Path
@@ -10,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pierimpact.checks import InputError, brief, did_you_mean
+from pierimpact.files.csv_lines import csv_cells, csv_lines
 from pierimpact.files.limits import POSSIBLE
 from pierimpact.files.reading import read_text
 from pierimpact.risk.traffic import WeighedTrucks
@@ -48,19 +47,11 @@ def read_weigh_in_motion(path: Path) -> WeighedTrucks:
 
 def _columns(text: str) -> dict[str, list[float]]:
     """Return the values of the columns by their names, in SI units."""
-    lines = [
-        (row, line)
-        for row, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not lines:
-        raise InputError(f"must have a heading, {_EXAMPLE}; got nothing")
-    (first, heading), *rest = lines
-    separator = next((mark for mark in ";\t" if mark in heading), ",")
-    sizes = _sizes(first, _cells(heading, separator))
+    ((first, heading), *rest), separator = csv_lines(text, _EXAMPLE)
+    sizes = _sizes(first, csv_cells(first, heading, separator))
     found: dict[str, list[float]] = {name: [] for name in sizes}
     for row, line in rest:
-        cells = _cells(line, separator)
+        cells = csv_cells(row, line, separator)
         if len(cells) != len(sizes):
             raise InputError(f"row {row}: must have {len(sizes)} columns, got {len(cells)}")
         for (name, size), cell in zip(sizes.items(), cells, strict=True):
@@ -71,10 +62,6 @@ def _columns(text: str) -> dict[str, list[float]]:
     if not rest:
         raise InputError("must have a row for each truck, got none")
     return found
-
-
-def _cells(line: str, separator: str) -> list[str]:
-    return next(csv.reader(io.StringIO(line), delimiter=separator, skipinitialspace=True))
 
 
 def _sizes(row: int, cells: list[str]) -> dict[str, float]:

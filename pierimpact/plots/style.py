@@ -200,13 +200,6 @@ def name_rows(axes: Axes, names: Sequence[str]) -> None:
     axes.grid(visible=True, axis="x")
 
 
-def round_up(value: float) -> float:
-    """Return the next round number, as the end of an axis that seldom has to move."""
-    unit = 10.0 ** math.floor(math.log10(value))
-    steps = (1.0, 1.2, 1.6, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
-    return next(unit * step for step in steps if unit * step >= value * 0.999)
-
-
 def round_out(low: float, high: float, value: float) -> tuple[float, float]:
     """Return the ends of a logarithmic axis, moved out in steps where a value lies beyond them."""
     if value < 1.05 * low:
