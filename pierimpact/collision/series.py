@@ -10,6 +10,7 @@ few functions that differ handed in as `ops`.
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import accumulate, repeat
 from operator import mul
 from typing import Any, NamedTuple, TypeAlias
@@ -48,6 +49,7 @@ class Ops(NamedTuple):
     where: Callable[[Flag, Real, Real], Real]
     negate: Callable[[Flag], Flag]
     some: Callable[[Flag], bool]
+    among: Callable[..., Real]  # what a function finds of those flagged, and a default of others
     sizes: Callable[[Terms], Terms]
     terms: Callable[[Real], int]  # of a step that is a part of the longest
     blank: Callable[[Real, int], Any]  # three series to fill in
@@ -92,6 +94,18 @@ def fixed_of_all(weights: list[float], terms: Terms) -> Real:
 def terms_needed(part: float) -> int:
     """Return how many terms a step takes that is a part of the longest."""
     return 10 + math.ceil(20.0 * math.sqrt(part))  # numerical; TERMS for a whole one
+
+
+def among_all(flag: Flag, default: Real, find: Callable[..., Real], *given: Any) -> Real:
+    """Return what `find` says of the terms and numbers given where flagged, else the default."""
+    places = np.flatnonzero(flag)
+    if len(places) == len(flag):
+        return find(*given)
+    found = default.copy()
+    if len(places):
+        flagged = (each.take(places, axis=-1) if np.ndim(each) else each for each in given)
+        found[places] = find(*flagged)
+    return found
 
 
 NODES = [weights_of_one(part / PARTS) for part in range(PARTS + 1)]
@@ -154,25 +168,31 @@ def locate(terms: Terms, part: Real, shape: Real, ops: Ops) -> tuple[Real, Flag]
     happens : Flag
         Whether it rises above zero there.
     """
-    where, dot = ops.where, ops.dot
+    where, among, at = ops.where, ops.among, partial(sum_at, ops=ops)
     end = part + 1.0 / PARTS
     high, happens = end, shape == CROSSES
     turning = ops.negate(happens)
     if ops.some(turning):
-        rates, bends = terms[1:], terms[2:]
+        rates, bends, nothing = terms[1:], terms[2:], 0.0 * end
         dips, crests = shape == DIPS, shape == CRESTS
-        left, right = part, end
-        if ops.some(dips | crests):
-            bend = rise(bends, where(dips, 1.0, -1.0), where(dips | crests, part, end), end, ops)
-            rate = dot(ops.weights(bend, len(terms)), rates)
+        ends_above = among(turning, nothing, at, terms, end) > 0.0
+        left, right, bent = part, end, dips | crests
+        if ops.some(bent):
+            bend = rise(bends, where(dips, 1.0, -1.0), where(bent, part, end), end, ops)
+            rate = among(bent, nothing, at, rates, bend)
             left, right = where(crests, bend, part), where(dips, bend, end)
             turning = turning & where(dips, rate < 0.0, where(crests, rate > 0.0, True))
         top = rise(rates, -1.0, where(turning, left, right), right, ops)
-        over = turning & (dot(ops.weights(top, len(terms)), terms) > 0.0)
+        over = among(turning, nothing, at, terms, top) > 0.0
         high = where(over, top, end)
-        happens = over | (dot(ops.weights(end, len(terms)), terms) > 0.0)
+        happens = happens | over | ends_above
     theta = rise(terms, 1.0, where(happens, part, high), high, ops)
     return theta, happens
+
+
+def sum_at(terms: Terms, theta: Real, ops: Ops) -> Real:
+    """Return the sum at a fraction of the step."""
+    return ops.dot(ops.weights(theta, len(terms)), terms)
 
 
 def rise(terms: Terms, sign: Real, low: Real, high: Real, ops: Ops) -> Real:
@@ -181,28 +201,29 @@ def rise(terms: Terms, sign: Real, low: Real, high: Real, ops: Ops) -> Real:
     Halley's method, with bisection where it would leave the bracket; `high` where the bracket
     is empty.
     """
+    closer = partial(_closer, ops=ops, left=60)  # numerical
+    return ops.among(low < high, high, closer, terms, sign, 0.5 * (low + high), low, high)
+
+
+def _closer(
+    terms: Terms, sign: Real, theta: Real, low: Real, high: Real, *, ops: Ops, left: int
+) -> Real:
+    """Return the zero next to `theta`, after so many more steps at most."""
     where, dot = ops.where, ops.dot
-    theta = where(low < high, 0.5 * (low + high), high)
-    settled = low >= high
-    rates, bends = terms[1:], terms[2:]
-    for _ in range(60):
-        weights = ops.weights(theta, len(terms))
-        f = sign * dot(weights, terms)
-        r, c = sign * dot(weights, rates), sign * dot(weights, bends)
-        below = f <= 0.0
-        low, high = where(below, theta, low), where(below, high, theta)
-        denominator = 2.0 * r * r - f * c
-        regular = (r > 0.0) & (denominator > 0.0)
-        new = theta - where(regular, 2.0 * f * r / where(regular, denominator, 1.0), 1.0)
-        regular = regular & (new >= low) & (new <= high)
-        new = where(regular, new, 0.5 * (low + high))
-        change = abs(new - theta)
-        theta = where(settled, theta, new)
-        # The error that is left is of the order of the third power of the change.
-        settled = settled | (change <= where(regular, 1e-5, 1e-15))
-        if not ops.some(ops.negate(settled)):
-            break
-    return theta
+    weights = ops.weights(theta, len(terms))
+    f = sign * dot(weights, terms)
+    r, c = sign * dot(weights, terms[1:]), sign * dot(weights, terms[2:])
+    below = f <= 0.0
+    low, high = where(below, theta, low), where(below, high, theta)
+    denominator = 2.0 * r * r - f * c
+    regular = (r > 0.0) & (denominator > 0.0)
+    new = theta - where(regular, 2.0 * f * r / where(regular, denominator, 1.0), 1.0)
+    regular = regular & (new >= low) & (new <= high)
+    new = where(regular, new, 0.5 * (low + high))
+    # The error that is left is of the order of the third power of the change.
+    moves = abs(new - theta) > where(regular, 1e-5, 1e-15)
+    closer = partial(_closer, ops=ops, left=left - 1)
+    return ops.among(moves & (left > 1), new, closer, terms, sign, new, low, high)
 
 
 def rises_of_one(flagged: list[tuple[EventFunction, Flag]], series: Sequence[Terms]) -> list[Rise]:
@@ -276,6 +297,7 @@ FLOATS = Ops(
     where=lambda flag, yes, no: yes if flag else no,
     negate=lambda flag: not flag,
     some=bool,
+    among=lambda flag, default, find, *given: find(*given) if flag else default,
     sizes=lambda terms: list(map(abs, terms)),
     terms=terms_needed,
     blank=lambda like, count: ([0.0] * count, [0.0] * count, [0.0] * count),
@@ -289,6 +311,7 @@ ARRAYS = Ops(
     where=np.where,
     negate=np.logical_not,
     some=np.count_nonzero,
+    among=among_all,
     sizes=np.abs,
     terms=lambda part: TERMS,  # whatever the others need
     blank=lambda like, count: np.empty((3, count, len(like))),

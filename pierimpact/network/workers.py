@@ -31,9 +31,17 @@ PATIENCE = 10
 _UNDER_WAY = 2
 # How often processes may be lost at the same work before it is to blame; Dask's too.
 _MOST_LOSSES = 3
-# The threads of the linear algebra in a process, of which one will do: the processes share the
-# cores.
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+# What a process finds in its environment. One thread of the linear algebra will do: the processes
+# share the cores. And glibc keeps the memory of arrays for the next ones: to return it, as Dask
+# would have it, takes as long as the collisions.
+_ENVIRONMENT = {
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "VECLIB_MAXIMUM_THREADS": "1",
+    "MALLOC_MMAP_THRESHOLD_": str(32 * 1024**2),  # numerical [B]
+    "MALLOC_TRIM_THRESHOLD_": str(512 * 1024**2),  # numerical [B]
+}
 
 
 class LostWorkersError(RuntimeError):
@@ -172,15 +180,15 @@ class _LocalProcesses:
         if self._pool is None:
             context = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(self._count, context, _begin)
-        with _one_thread():  # a process that this starts takes it from here
+        with _environment():  # a process that this starts takes it from here
             return self._pool.submit(function, task)
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
-    """Let the linear algebra of processes that are started keep to one thread."""
-    before = {name: os.environ.get(name) for name in _THREADS}
-    os.environ.update(dict.fromkeys(_THREADS, "1"))
+def _environment() -> Iterator[None]:
+    """Give the processes that are started meanwhile their environment."""
+    before = {name: os.environ.get(name) for name in _ENVIRONMENT}
+    os.environ.update(_ENVIRONMENT)
     try:
         yield
     finally:
@@ -208,7 +216,10 @@ def _end_with_parent() -> None:
 def _client(distributed: Any, count: int, scheduler: str | None) -> Iterator[Any]:
     """Give the client of a Dask cluster that is ready: of the scheduler's, or of a local one."""
     if scheduler is None:
+        import dask
+
         with (
+            dask.config.set({"distributed.nanny.pre-spawn-environ": _ENVIRONMENT}),
             distributed.LocalCluster(
                 n_workers=count,
                 threads_per_worker=1,
