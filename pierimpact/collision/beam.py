@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.collision.parameters import Collision
-from pierimpact.collision.propagation import STEPS
 from pierimpact.collision.regimes import (
     NO_EVENT,
     LinearMotion,
@@ -41,6 +40,7 @@ from pierimpact.pier.beam import BeamPier
 Array: TypeAlias = NDArray[np.float64]
 
 # Numerical settings.
+STEPS = 10_000  # limit
 DOUBLINGS = 4  # of the number of steps taken together, from one on
 FEWEST_MOVING = 8  # shapes that are always followed
 STILL = 1e-26  # share of the energy below which the vibration of a shape has died out
