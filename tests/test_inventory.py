@@ -2,13 +2,14 @@
 
 import csv
 import io
+import os
 
 import numpy as np
 import pytest
 
 from pierimpact.checks import InputError
 from pierimpact.cli import main
-from pierimpact.files.inventory import FIELDS, piers_of, read_rules
+from pierimpact.files.inventory import ITEMS, piers_of, read_rules
 from pierimpact.files.piers import read_pier_table
 
 RULES = """
@@ -39,7 +40,10 @@ BRIDGE = {
 }  # fmt: skip
 
 
-def inventory(path, bridges, fields=FIELDS):
+HEADINGS = {what: f"SOME_{what.upper()}_{item}" for what, item in ITEMS.items()}
+
+
+def inventory(path, bridges, fields=HEADINGS):
     lines = [",".join(["OTHER_000", *fields.values()])]
     lines += [",".join(["'x, y'", *(BRIDGE | bridge).values()]) for bridge in bridges]
     path.write_text("\n".join(lines) + "\n", encoding="latin-1")
@@ -136,10 +140,31 @@ def test_bad_rules_are_one_line(tmp_path, text, error):
     assert "\n" not in str(caught.value)
 
 
-def test_a_heading_that_is_not_there_is_asked_of_the_user(tmp_path, rules):
-    fields = FIELDS | {"latitude": "LATDD"}
-    file = inventory(tmp_path / "nbi.txt", [{}], fields)
-    with pytest.raises(InputError, match="has no field LAT_016, which is the latitude: name its"):
+@pytest.mark.parametrize(
+    ("heading", "error"),
+    [
+        ("LATDD", "has no fields whose heading ends in _016, which is the latitude: name its"),
+        ("OTHER_016,LAT_016", "has 2 fields whose heading ends in _016, which is the latitude"),
+    ],
+)
+def test_a_heading_that_is_not_clear_is_asked_of_the_user(tmp_path, rules, heading, error):
+    file = inventory(tmp_path / "nbi.txt", [], HEADINGS | {"latitude": heading})
+    with pytest.raises(InputError, match=error):
         piers_of(file, read_rules(rules))
+
+
+def test_a_heading_is_taken_from_the_rules(tmp_path, rules):
+    file = inventory(tmp_path / "nbi.txt", [{}], HEADINGS | {"latitude": "LATDD"})
     rules.write_text(f'[fields]\nlatitude = "LATDD"\n{RULES}')
     assert piers_of(file, read_rules(rules)).count == 1
+    rules.write_text(f'[fields]\nlatitude = "LATD"\n{RULES}')
+    with pytest.raises(InputError, match="has no field LATD, which by the rules is the latitude"):
+        piers_of(file, read_rules(rules))
+
+
+def test_a_pipe_is_no_inventory(tmp_path, rules):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(InputError, match="it is no regular file"):
+        piers_of(tmp_path / "pipe", read_rules(rules))
+    with pytest.raises(InputError, match="it is no regular file"):
+        read_pier_table(tmp_path / "pipe")

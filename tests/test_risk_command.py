@@ -5,9 +5,11 @@ import io
 import json
 import math
 import re
+from contextlib import contextmanager, nullcontext
 
 import numpy as np
 import pytest
+from dask_cluster import dask_cluster
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
@@ -19,6 +21,7 @@ from pierimpact.collision.simulate import simulate
 from pierimpact.files.case import case_from
 from pierimpact.files.distributions import parse_distribution
 from pierimpact.files.weigh_in_motion import read_weigh_in_motion
+from pierimpact.network.workers import LostWorkersError
 from pierimpact.report.risk import RATES, case_risk, risk_json, risk_text
 from pierimpact.report.risk_page import risk_blocks, risk_csv
 from pierimpact.risk.traffic import ANGLES, YEAR, jcss_mass
@@ -41,6 +44,41 @@ def written(folder, values):
     path = folder / "pier.yaml"
     path.write_text("".join(f"{key}: {value}\n" for key, value in values.items()), "utf-8")
     return path
+
+
+def test_on_a_cluster_of_which_a_worker_is_killed_it_comes_to_the_same(
+    tmp_path, capsys, monkeypatch
+):
+    pytest.importorskip("distributed")
+    command = ["risk", str(written(tmp_path, CASE)), "--samples", "20000", "--json"]
+    assert cli.main([*command, "--workers", "1"]) == 0
+    alone = capsys.readouterr().out
+    with dask_cluster(tmp_path, 2) as (address, processes):
+        monkeypatch.setattr(
+            "pierimpact.cli.risk.progress_bar",
+            lambda unit, total: nullcontext(lambda count: processes[0].kill()),
+        )
+        assert cli.main([*command, "--scheduler", address]) == 0
+        assert processes[0].poll() is not None
+    said = capsys.readouterr()
+    assert said.out == alone
+    assert "Dask dashboard: http" in said.err
+
+
+def test_lost_workers_are_one_line(tmp_path, capsys, monkeypatch):
+    @contextmanager
+    def lost(**options):
+        def run(function, tasks):
+            raise LostWorkersError("the scheduler is gone")
+
+        yield run
+
+    monkeypatch.setattr("pierimpact.network.workers.worker_pool", lost)
+    command = ["risk", str(written(tmp_path, CASE)), "--workers", "2", "--output", str(tmp_path)]
+    assert cli.main(command) == 1
+    said = capsys.readouterr()
+    assert said.err.strip() == "pierimpact: the scheduler is gone; nothing is written"
+    assert [path.name for path in tmp_path.iterdir()] == ["pier.yaml"]
 
 
 LAWS = {

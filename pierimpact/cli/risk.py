@@ -50,6 +50,7 @@ def add_risk(commands: Any) -> None:
 def _risk(options: argparse.Namespace) -> int:
     try:
         from pierimpact.files.case import read_case_file
+        from pierimpact.network.workers import LostWorkersError
         from pierimpact.report.risk import case_risk, missing_traffic, risk_json, risk_text
         from pierimpact.risk.analysis import SIZE
     except ModuleNotFoundError as error:
@@ -63,8 +64,12 @@ def _risk(options: argparse.Namespace) -> int:
     output = Path(options.output) if options.output else None
     if output and output.exists() and not output.is_dir():  # before the work, not after it
         raise InputError(f"output {output} must be a folder, and there is a file")
-    with _run(options, size) as run, progress_bar("collisions", size) as progress:
-        result = case_risk(case, size, seed, run=run, progress=progress)
+    try:
+        with _run(options, size) as run, progress_bar("collisions", size) as progress:
+            result = case_risk(case, size, seed, run=run, progress=progress)
+    except LostWorkersError as error:
+        complain(f"{error}; nothing is written")
+        return 1
     files: list[Path] = []
     if output:
         from pierimpact.report.risk_page import write_risk

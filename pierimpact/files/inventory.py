@@ -3,11 +3,12 @@
 Its published delimited files hold where a bridge is, what passes over and under it and with how
 much room, but not its piers: these come from the rules of the user, by kind of structure.
 
-Items, with the digits of coordinates, as read in the record format of the Federal Highway
-Administration (fhwa.dot.gov/bridge/nbi/format.cfm): latitude has 8, longitude 9, and as read in
-excerpts of its coding guide they are degrees, minutes, seconds and hundredths. The headings are
-second-hand, as programs of others read these files; so is that text is in single quotes and that
-longitudes are west. Where a file has others, the rules name them.
+Items and the digits of coordinates are as read in the record format of the Federal Highway
+Administration (fhwa.dot.gov/bridge/nbi/format.cfm), commas and single quotes about text on its page
+of files (ascii2020.cfm); that coordinates are degrees, minutes, seconds and hundredths, in excerpts
+of its coding guide. Headings are not in them: the one that ends in the number of an item, as
+LAT_016, is taken for it, and where there is none or more than one, the rules name it. That
+longitudes are west is second-hand.
 """
 
 import csv
@@ -20,24 +21,25 @@ from typing import Any, NamedTuple
 
 from pierimpact.checks import InputError, brief, known, no_formula
 from pierimpact.files.piers import KEYS, REQUIRED
+from pierimpact.files.reading import require_regular
 from pierimpact.files.toml_table import read_toml
 
-#: What is taken of a bridge, with the heading of its field.
-FIELDS = {
-    "state": "STATE_CODE_001",
-    "structure": "STRUCTURE_NUMBER_008",
-    "record": "RECORD_TYPE_005A",
-    "latitude": "LAT_016",
-    "longitude": "LONG_017",
-    "built": "YEAR_BUILT_027",
-    "lanes_under": "TRAFFIC_LANES_UND_028B",
-    "traffic": "ADT_029",
-    "truck_share": "PERCENT_ADT_TRUCK_109",
-    "kind": "STRUCTURE_KIND_043A",
-    "type": "STRUCTURE_TYPE_043B",
-    "vertical_clearance": "VERT_CLR_UND_054B",
-    "right_clearance": "LAT_UND_MT_055B",
-    "left_clearance": "LEFT_LAT_UND_MT_056",
+#: What is taken of a bridge, with the number of its item.
+ITEMS = {
+    "state": "001",
+    "structure": "008",
+    "record": "005A",
+    "latitude": "016",
+    "longitude": "017",
+    "built": "027",
+    "lanes_under": "028B",
+    "traffic": "029",
+    "truck_share": "109",
+    "kind": "043A",
+    "type": "043B",
+    "vertical_clearance": "054B",
+    "right_clearance": "055B",
+    "left_clearance": "056",
 }
 #: What a rule can ask for: a list of codes each, and for the year the first and the last.
 CONDITIONS = ("kind", "type", "state", "record", "built")
@@ -73,7 +75,7 @@ class Rule(NamedTuple):
 class Rules:
     """What a rules file says."""
 
-    fields: Mapping[str, str]  #: headings by what they are of
+    fields: Mapping[str, str]  #: headings that do not end in the number of the item
     east: tuple[str, ...]  #: codes of the states whose longitudes are east
     every: Mapping[str, str]  #: keys of a case file for all bridges
     rules: tuple[Rule, ...]  #: of which the first that holds adds its keys
@@ -98,9 +100,9 @@ class Piers:
 def read_rules(path: Path) -> Rules:
     """Return the rules of a TOML file.
 
-    Its table `fields` names headings that differ, `east` lists states whose longitudes are east,
-    `every` has keys of a case file for all bridges, and each of `rules` has under `when` the codes
-    it is for, and keys of a case file.
+    Its table `fields` names headings that do not end in the number of their item, `east` lists
+    states whose longitudes are east, `every` has keys of a case file for all bridges, and each of
+    `rules` has under `when` the codes it is for, and keys of a case file.
 
     Raises
     ------
@@ -113,7 +115,7 @@ def read_rules(path: Path) -> Rules:
             known(name, ("fields", "east", "every", "rules"), "a table of a rules file")
         names = _texts("fields", table.get("fields", {}))
         for name in names:
-            known(name, FIELDS, "a field of the inventory")
+            known(name, ITEMS, "a field of the inventory")
         listed = table.get("rules", [])
         if not isinstance(listed, list):
             raise InputError("rules must be written as [[rules]], one for each kind of structure")
@@ -122,7 +124,7 @@ def read_rules(path: Path) -> Rules:
         east = _codes("east", table.get("east", []))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
-    return Rules(fields=FIELDS | names, east=east, every=every, rules=rules)
+    return Rules(fields=names, east=east, every=every, rules=rules)
 
 
 def _rule(name: str, rule: Any) -> Rule:
@@ -222,23 +224,32 @@ def piers_of(path: Path, rules: Rules) -> Piers:
 
 def _bridges(path: Path, fields: Mapping[str, str]) -> Iterator[dict[str, str]]:
     """Yield what is taken of each bridge, as text."""
+    require_regular(path)
     with path.open(encoding="latin-1", newline="") as file:
         first = file.readline()
         quote = "'" if "'" in first + file.readline() else '"'
         file.seek(0)
         rows = csv.reader(file, quotechar=quote)
         heading = [cell.strip().removeprefix("ï»¿") for cell in next(rows, [])]
-        places = {}
-        for what, name in fields.items():
-            if name not in heading:
-                raise InputError(
-                    f"has no field {name}, which is the {what}: name its heading in the rules, "
-                    f'[fields] {what} = "…"'
-                )
-            places[what] = heading.index(name)
+        places = {what: _place(what, heading, fields.get(what)) for what in ITEMS}
         for row in rows:
             if len(row) == len(heading):
                 yield {what: row[place].strip() for what, place in places.items()}
+
+
+def _place(what: str, heading: list[str], named: str | None) -> int:
+    """Return the place of an item by the heading that the rules name, or else by its number."""
+    if named is not None:
+        if named not in heading:
+            raise InputError(f"has no field {named}, which by the rules is the {what}")
+        return heading.index(named)
+    places = [n for n, cell in enumerate(heading) if cell.rpartition("_")[2] == ITEMS[what]]
+    if len(places) != 1:
+        raise InputError(
+            f"has {len(places) or 'no'} fields whose heading ends in _{ITEMS[what]}, which is the "
+            f'{what}: name its heading in the rules, [fields] {what} = "…"'
+        )
+    return places[0]
 
 
 def _values(bridge: Mapping[str, str], rules: Rules) -> dict[str, str]:

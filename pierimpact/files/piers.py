@@ -17,6 +17,7 @@ from typing import Any, Literal, NamedTuple, get_origin
 from pierimpact.checks import InputError, brief, did_you_mean, one_line
 from pierimpact.files.inputs import Inputs
 from pierimpact.files.keys import quantity_of
+from pierimpact.files.reading import require_regular
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import DIMENSIONS, parse
 
@@ -113,6 +114,7 @@ def read_pier_table(path: str | Path) -> PierTable:
     """
     path = Path(path)
     try:
+        require_regular(path)
         with path.open("rb") as file:
             sha256 = hashlib.file_digest(file, "sha256").hexdigest()
         heading, body = _open(path)

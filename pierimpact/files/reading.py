@@ -27,7 +27,7 @@ def read_content(path: Path, most: int) -> bytes:
         message goes on after the name of the file.
     """
     try:
-        _require_regular(os.stat(path).st_mode)  # noqa: PTH116, opening a device may do something
+        require_regular(path)
         with os.fdopen(os.open(path, os.O_RDONLY | _AT_ONCE), "rb") as file:
             _require_regular(os.fstat(file.fileno()).st_mode)
             content = file.read(most + 1)
@@ -50,6 +50,19 @@ def read_text(path: Path, most: int) -> tuple[bytes, str]:
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise InputError(f"is not UTF-8 text: line {line} cannot be decoded") from None
+
+
+def require_regular(path: Path) -> None:
+    """Refuse what is no regular file, before it is opened: to open a device may do something.
+
+    Raises
+    ------
+    InputError
+        When it is a folder, a device or a pipe; the message goes on after the name of the file.
+    OSError
+        When it is not there.
+    """
+    _require_regular(path.stat().st_mode)
 
 
 def _require_regular(mode: int) -> None:
