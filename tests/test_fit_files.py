@@ -113,6 +113,12 @@ def test_two_records_and_a_pier_without_output(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
+        (["--speed", "80000 km/h"], "--speed must be from 0.36 to 540 km/h"),
+        (["--speed", "80 km/h", "--mass", "8 g"], "--mass must be from 100 to 1.0×10⁶ kg"),
+        (
+            ["--speed", "80 km/h", "--pier-mass", "8 t", "--pier-stiffness", "1 N/m"],
+            "--pier-stiffness must be from",
+        ),
         (["--speed", "80"], "--speed must have a unit (km/h, m/s, mph), got '80'"),
         (["--speed", "1 m/s", "--speed", "2 m/s", "--speed", "3 m/s"],
          "speed must be given once, or once for each of 1 records, got 3"),

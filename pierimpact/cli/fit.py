@@ -6,6 +6,7 @@ from typing import Any
 
 from pierimpact.checks import InputError, one_of
 from pierimpact.cli.terminal import needs, progress_bar
+from pierimpact.files.limits import PIER_MASS, PIER_STIFFNESS, POSSIBLE, within
 from pierimpact.pier.equivalent import DAMPING_RATIO, EquivalentPier
 from pierimpact.units import parse
 
@@ -16,6 +17,12 @@ the reaction. Total mass, speed and pier count as known; without a pier it is ri
 every parameter with its start, its fitted value with the standard error, and what the records do
 not show, which stays at its start.
 """
+_RANGES = {
+    "speed": POSSIBLE["speed"],
+    "mass": POSSIBLE["truck_mass"],
+    "pier_mass": PIER_MASS,
+    "pier_stiffness": PIER_STIFFNESS,
+}
 _FIT_EXIT_CODES = "Exit code: 0 if a truck was fitted; 2 if the input is bad; 1 if anything failed."
 
 
@@ -100,7 +107,7 @@ def _fit(options: argparse.Namespace) -> int:
     with progress_bar("collisions") as progress:
         fitted = fit_files(
             options.records,
-            [parse("--speed", text, "speed") for text in options.speed],
+            [_possible("speed", text, "speed") for text in options.speed],
             piers_of(options),
             start=options.start,
             mass=_given(options, "mass", "mass"),
@@ -124,7 +131,14 @@ def _fit(options: argparse.Namespace) -> int:
 def _given(options: argparse.Namespace, name: str, dimension: str) -> float | None:
     """Return an option in SI units, or None where it is not given."""
     text = getattr(options, name)
-    return None if text is None else parse(f"--{name.replace('_', '-')}", text, dimension)
+    return None if text is None else _possible(name, text, dimension)
+
+
+def _possible(name: str, text: str, dimension: str) -> float:
+    """Return an option in SI units that is within what is possible."""
+    option = f"--{name.replace('_', '-')}"
+    value = parse(option, text, dimension)
+    return within(option, value, _RANGES[name], dimension, text) if name in _RANGES else value
 
 
 def piers_of(options: argparse.Namespace) -> list[EquivalentPier | None]:
