@@ -7,7 +7,6 @@ import subprocess
 import sys
 from html.parser import HTMLParser
 from importlib import import_module
-from inspect import ismodule
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -16,7 +15,6 @@ import pytest
 from sphinx.util.inventory import InventoryFile
 
 import pierimpact
-from pierimpact.plots.figures import figure_of
 
 HOUSE = Path(__file__).parents[1]
 DOCS = HOUSE / "docs"
@@ -25,6 +23,8 @@ RUN = [
     for path in sorted(DOCS.rglob("*.md"))
     if "{code-cell}" in path.read_text("utf-8") and "notebooks" not in path.parts
 ]
+# A directive of the reference, with the members that it names.
+DIRECTIVE = re.compile(r"\.\. (auto\w+|currentmodule):: ([\w.]+)(?:\n   :members: ?(.*))?")
 
 
 class _Page(HTMLParser):
@@ -169,28 +169,52 @@ def test_notebook_of_the_how_to_runs(tmp_path, monkeypatch):
     assert (tmp_path / "history.png").stat().st_size > 10_000
 
 
-# The modules for notebooks show what a page or a test of their own executes; a warning is no call.
-EXAMPLES = [
-    *(
-        name
-        for name in pierimpact.__all__
-        if not (name.endswith("Warning") or ismodule(getattr(pierimpact, name)))
-    ),
-    "plots.figures.figure_of",
-]
+def _named(full):
+    home, _, last = full.rpartition(".")
+    return getattr(import_module(home), last)
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
-def test_example_of_a_docstring_runs(name):
-    home, _, last = name.rpartition(".")
-    public = getattr(import_module(f"pierimpact.{home}" if home else "pierimpact"), last)
-    (test,) = [
-        test
-        for test in doctest.DocTestFinder(recurse=False).find(
-            public, name, globs={"figure_of": figure_of}
-        )
-        if test.examples
-    ]
+def _documented():
+    """Return the objects that the reference's directives name, by full name."""
+    found = {}
+    for page in sorted((DOCS / "reference").glob("*.md")):
+        module = ""
+        for kind, name, members in DIRECTIVE.findall(page.read_text("utf-8")):
+            full = name if name.startswith("pierimpact") else f"{module}.{name}"
+            if kind == "currentmodule":
+                module = full
+            elif kind == "automodule":
+                own = vars(import_module(full))
+                names = [each.strip() for each in members.split(",")] if members else [
+                    each for each, value in own.items()
+                    if getattr(value, "__module__", "") == full and not each.startswith("_")
+                ]  # fmt: skip
+                found |= {f"{full}.{each}": own[each] for each in names}
+            else:
+                found[full] = _named(full)
+    return found
+
+
+DOCUMENTED = _documented()
+
+
+def test_examples_are_asked_of_every_entry_of_the_reference(site):
+    with (site / "objects.inv").open("rb") as file:
+        entries = InventoryFile.load(file, "", lambda *parts: "/".join(parts))
+    kinds = ("py:class", "py:exception", "py:function")
+    named = {_named(name) for kind in kinds for name in entries.get(kind, {})}
+    assert named == set(DOCUMENTED.values())
+
+
+@pytest.mark.parametrize("name", DOCUMENTED)
+def test_example_of_a_docstring_runs(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    # Without the names of its module: an example imports all that it uses.
+    finder = doctest.DocTestFinder(recurse=False)
+    tests = [test for test in finder.find(DOCUMENTED[name], name, globs={}) if test.examples]
+    assert tests, f"{name} has no runnable example"
     found = []
-    doctest.DocTestRunner().run(test, out=found.append)
-    assert found == []
+    for test in tests:
+        doctest.DocTestRunner().run(test, out=found.append)
+    assert not found, "".join(found)
+    assert list(tmp_path.iterdir()) == []

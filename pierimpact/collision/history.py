@@ -63,7 +63,17 @@ def hermite(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
 
 
 class Peak(NamedTuple):
-    """A peak of the reaction."""
+    """A peak of the reaction.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier, load_truck, simulate
+    >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
+    >>> history = simulate(load_truck("single-unit-8t"), pier, speed=22.2)
+    >>> peak = history.engine_peak
+    >>> round(peak.reaction / 1e6, 2), round(peak.time, 4)  # MN, s
+    (2.7, 0.0367)
+    """
 
     reaction: float  #: its value [N]
     time: float  #: when it occurs after first touch [s]
@@ -91,6 +101,18 @@ class CollisionHistory:
     """The motion of one collision, evaluated from its exact pieces.
 
     The peaks are located on the pieces themselves; the arrays are samples, dense enough to draw.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier, load_truck, simulate
+    >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
+    >>> history = simulate(load_truck("single-unit-8t"), pier, speed=22.2)
+    >>> round(history.cargo_contact_time, 3)  # s
+    0.103
+    >>> bool(history.reaction.max() > 4.8e6)
+    True
+    >>> round(float(history.energy.crush[-1]) / history.collision.energy, 2)
+    0.88
     """
 
     collision: Collision

@@ -93,7 +93,17 @@ def _simulate_beam(collision: Collision, beam: BeamPier, duration: float) -> Bea
 
 
 class PeakReactions(NamedTuple):
-    """The peaks of many collisions, each an array of the shape the inputs broadcast to."""
+    """The peaks of many collisions, each an array of the shape the inputs broadcast to.
+
+    Examples
+    --------
+    >>> from pierimpact import load_truck, peak_reactions
+    >>> peaks = peak_reactions(load_truck("single-unit-8t"), 8e3, 300e6, 0.05, [10.0, 22.2])
+    >>> (peaks.governing / 1e6).round(2)  # MN
+    array([1.2 , 4.97])
+    >>> peaks.cargo_contact_time.round(3)  # s; a slow truck stops before its cargo arrives
+    array([  nan, 0.103])
+    """
 
     engine: NDArray[np.float64]  #: peak reaction before cargo contact [N]
     cargo: NDArray[np.float64]  #: peak reaction from cargo contact on; nan without it [N]

@@ -84,7 +84,28 @@ class Residual(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class TruckFit:
-    """A truck fitted to force records."""
+    """A truck fitted to force records.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from pierimpact import EquivalentPier, fit_truck, load_truck, simulate
+    >>> truck, pier = load_truck("single-unit-8t"), EquivalentPier.from_frequency(8e3, 30.0)
+    >>> history = simulate(truck, pier, speed=22.2)
+    >>> start = replace(truck, engine_mass=600.0, body_mass=7400.0)
+    >>> fit = fit_truck(
+    ...     history.time,
+    ...     history.contact_force,
+    ...     start=start,
+    ...     speed=22.2,
+    ...     pier=pier,
+    ...     parameters=["engine_mass"],
+    ... )
+    >>> round(fit.truck.engine_mass), fit.not_identified
+    (700, {})
+    >>> bool(fit.residual.share < 0.01)  # of the largest force
+    True
+    """
 
     records: tuple[Record, ...]
     start: Truck

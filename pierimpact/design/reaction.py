@@ -32,6 +32,18 @@ class DesignReaction:
     values : dict
         Every value of the procedure by the name of its symbol, also those that mean nothing in
         this case.
+
+    Examples
+    --------
+    >>> from pierimpact import EquivalentPier, design_reaction, load_truck
+    >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
+    >>> design = design_reaction(load_truck("single-unit-8t"), pier, speed=22.2)
+    >>> round(design.engine / 1e6, 2), round(design.cargo / 1e6, 2)  # MN
+    (2.95, 5.09)
+    >>> design.warnings  # none within the domain that was studied
+    ()
+    >>> round(design.values["v2"], 1)  # speed of the cargo as it meets the pier [m/s]
+    14.9
     """
 
     level: str
@@ -109,6 +121,13 @@ class DesignReactions:
     ----------
     engine, cargo : ndarray
         Engine and cargo reactions; `cargo` is nan where the cargo does not meet the pier [N].
+
+    Examples
+    --------
+    >>> from pierimpact import design_reactions, load_truck
+    >>> design = design_reactions(load_truck("single-unit-8t"), 8e3, 300e6, 0.05, [10.0, 22.2])
+    >>> (design.cargo / 1e6).round(2)  # MN
+    array([ nan, 5.07])
     """
 
     engine: NDArray[np.float64]

@@ -25,6 +25,16 @@ class Spectrum(NamedTuple):
 
     Each array has the shape of `frequency`; reactions are nan where the body does not meet the
     pier, by that route.
+
+    Examples
+    --------
+    >>> from pierimpact import engine_spectrum, load_truck
+    >>> truck = load_truck("single-unit-8t")
+    >>> spectrum = engine_spectrum(truck, 22.2, pier_mass=8e3, frequency=[10.0, 30.0, 100.0])
+    >>> spectrum.frequency_ratio.round(2)
+    array([0.14, 0.41, 1.36])
+    >>> (spectrum.closed_form / spectrum.full_model).round(2)
+    array([1.09, 1.09, 1.02])
     """
 
     frequency: Array  #: f_p of the pier [Hz]

@@ -128,10 +128,30 @@ def read_case_file(path: str | Path) -> CaseFile:
 
     What it does not give, a `pierimpact.toml` in its folder may.
 
+    Parameters
+    ----------
+    path : str or Path
+        The file, such as "pier.yaml"; paths in it start from its folder.
+
+    Returns
+    -------
+    CaseFile
+        Its name, its SHA-256, its values as they are written there, and the `case` in SI units.
+
     Raises
     ------
     InputError
         When a file cannot be read or breaks a rule; the message is one line.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> file.values["column_diameter"]
+    '36 in'
+    >>> file.case.column.section.diameter  # m
+    0.9144
     """
     return _read(Path(path), follow=True)
 

@@ -44,6 +44,18 @@ class BeamPier:
     deflection, shear, moment : ndarray, shape (n, m)
         Deflection φ [kg^-½], shear V [N/(m kg^½)] and moment M [N/kg^½] of each shape at `z`, by
         the sign convention of `pierimpact.pier.member_forces`.
+
+    Examples
+    --------
+    >>> from pierimpact import CircularSection, PierColumn
+    >>> column = PierColumn(
+    ...     height=5.0, section=CircularSection(diameter=0.9), elastic_modulus=25e9, density=2400.0
+    ... )
+    >>> beam = column.beam(impact_height=1.2)
+    >>> beam.frequencies[:2].round(1)  # Hz
+    array([ 65.9, 191.6])
+    >>> round(beam.equivalent.frequency, 1)  # Hz, of the shape under a static force
+    85.0
     """
 
     equivalent: EquivalentPier

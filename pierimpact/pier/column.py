@@ -398,7 +398,7 @@ class StruckColumn:
         return MemberForces(
             reaction=reaction,
             height=self.column.height,
-            bottom=-self.column.embedment,
+            bottom=0.0 - self.column.embedment,
             impact_height=self.impact_height,
             base_force=reaction * found.base_force,
             top_force=reaction * found.top_force,

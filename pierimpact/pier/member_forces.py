@@ -41,6 +41,19 @@ class MemberForces:
         Support forces R_b and R_t [N].
     base_moment, top_moment : float
         End moments M_b and M_t [N m].
+
+    Examples
+    --------
+    >>> from pierimpact import CircularSection, PierColumn
+    >>> column = PierColumn(
+    ...     height=5.0, section=CircularSection(diameter=0.9), elastic_modulus=25e9, density=2400.0
+    ... )
+    >>> forces = column.member_forces(1e6, impact_height=1.2)
+    >>> round(forces.base_force / 1e6, 2), round(forces.top_force / 1e6, 2)  # MN
+    (0.92, 0.08)
+    >>> largest = forces.largest_moment
+    >>> round(largest.value / 1e6, 2), largest.start  # MN m, m
+    (-0.79, 0.0)
     """
 
     reaction: float
@@ -141,6 +154,17 @@ class MemberForceHistory:
         then for that above [m].
     shear, moment : ndarray, shape (n, m)
         Shear V [N] and moment M [N m] at these times and heights.
+
+    Examples
+    --------
+    >>> from pierimpact import CircularSection, PierColumn, load_truck, simulate
+    >>> column = PierColumn(
+    ...     height=5.0, section=CircularSection(diameter=0.9), elastic_modulus=25e9, density=2400.0
+    ... )
+    >>> history = simulate(load_truck("single-unit-8t"), column.beam(impact_height=1.2), speed=22.2)
+    >>> largest = history.member_forces.moment_extremes.governing
+    >>> round(largest.value / 1e6, 2), largest.z, round(largest.time, 4)  # MN m, m, s
+    (-4.13, 0.0, 0.0299)
     """
 
     time: NDArray[np.float64] = field(repr=False)

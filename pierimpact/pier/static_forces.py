@@ -13,7 +13,21 @@ from typing import NamedTuple
 
 
 class StaticForcesWarning(UserWarning):
-    """Member forces under the reaction as a static force may be too low."""
+    """Member forces under the reaction as a static force may be too low.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from pierimpact import CircularSection, PierColumn
+    >>> column = PierColumn(
+    ...     height=8.0, section=CircularSection(diameter=0.9), elastic_modulus=25e9, density=2400.0
+    ... )
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     pier = column.equivalent(impact_height=1.2)
+    >>> str(caught[0].message).partition(":")[0]
+    'Shear and moment under the reaction as a static force may be too low'
+    """
 
 
 #: Frequency f_p below which a pier is too slow for the engine's blow, from the study [Hz].

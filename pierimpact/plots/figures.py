@@ -41,6 +41,7 @@ def figure_of(draw: Callable[P, object], *args: P.args, **kwargs: P.kwargs) -> F
     Examples
     --------
     >>> from pierimpact import EquivalentPier, load_truck, simulate
+    >>> from pierimpact.plots.figures import figure_of
     >>> from pierimpact.plots.history import draw_history
     >>> pier = EquivalentPier.from_frequency(mass=8e3, frequency=30.0)
     >>> history = simulate(load_truck("single-unit-8t"), pier, speed=22.2)

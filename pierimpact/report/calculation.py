@@ -110,7 +110,20 @@ class Impact:
 
 @dataclass(frozen=True, kw_only=True)
 class Calculation:
-    """A case, calculated at its nominal impact height, or at both where a range is asked for."""
+    """A case, calculated at its nominal impact height, or at both where a range is asked for.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.report.calculation import calculate
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> result = calculate(file.case)
+    >>> round(result.design_force / 1e6, 2), result.governs  # MN
+    (7.16, 'engine')
+    >>> round(result.demands["shear"].value / 1e6, 2), result.demands["shear"].method  # MN
+    (6.57, 'static')
+    """
 
     case: Case
     impacts: tuple[Impact, ...]  #: by height, upward

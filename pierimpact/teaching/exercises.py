@@ -78,17 +78,29 @@ class Student:
 
 
 def begin(lesson: str) -> Student:
-    """Ask for the student's name or number.
+    """Ask for the student's name or number, which decides the numbers of the exercises.
 
     Parameters
     ----------
     lesson : str
         Name of the notebook's subject, such as "collision".
 
+    Returns
+    -------
+    Student
+        The box for the name, as a notebook shows it.
+
     Raises
     ------
     InputError
         When there is no such lesson.
+
+    Examples
+    --------
+    >>> from pierimpact import exercises
+    >>> student = exercises.begin("collision")
+    >>> student.kept.path.name  # where the work is kept, beside the notebook
+    '01_collision.answers.json'
     """
     return Student(lesson)
 
@@ -103,10 +115,25 @@ def ask(lesson: str, number: int) -> "Exercise":
     number : int
         Number of the question, from 1.
 
+    Returns
+    -------
+    Exercise
+        The question with a box for the answer, as a notebook shows them.
+
     Raises
     ------
     InputError
         When there is no such exercise.
+
+    Examples
+    --------
+    >>> from pierimpact import exercises
+    >>> from pierimpact.teaching.checker import check
+    >>> exercise = exercises.ask("collision", 1)
+    >>> exercise.question.words.rpartition(". ")[2]
+    'Over what length?'
+    >>> check(exercise.question, "10.48 m").words  # a hint, which does not count as an answer
+    'Look at the kinetic energy again: there is a factor ½ in it.'
     """
     last = len(questions(lesson))
     if not 1 <= number <= last:
@@ -246,5 +273,28 @@ class Score:
 
 
 def score(lesson: str) -> Score:
-    """Return how many exercises of a lesson are solved; it follows what is answered above."""
+    """Return how many exercises of a lesson are solved; it follows what is answered above.
+
+    Parameters
+    ----------
+    lesson : str
+        Name of the notebook's subject, such as "collision".
+
+    Returns
+    -------
+    Score
+        The score with a line for each exercise, as a notebook shows it.
+
+    Raises
+    ------
+    InputError
+        When there is no such lesson.
+
+    Examples
+    --------
+    >>> from pierimpact import exercises
+    >>> score = exercises.score("collision")
+    >>> "0 of 4 solved" in score.board.value
+    True
+    """
     return Score(lesson)

@@ -51,6 +51,23 @@ def static_forces(columns: Mapping[str, Struck] = EXAMPLES) -> HTML:
     columns : mapping of str to Struck, optional
         Collisions to mark, by name, each as `Struck(truck, column, impact_height, damping_ratio,
         speed)` in SI units; it is calculated in both ways.
+
+    Returns
+    -------
+    HTML
+        The map, from the study in `pierimpact.design.static_study`, as a notebook shows it.
+
+    Raises
+    ------
+    InputError
+        When a truck misses its column, or a value is out of range.
+
+    Examples
+    --------
+    >>> from pierimpact import maps
+    >>> page = maps.static_forces({"A": maps.EXAMPLES["A"]})
+    >>> "A: shear 1.23, moment 1.36" in page.data  # static over beam
+    True
     """
     outcome = json.loads(OUTCOME_FILE.read_text(encoding="utf-8"))
     marked = {name: compare(struck) for name, struck in columns.items()}
@@ -66,7 +83,20 @@ def static_forces(columns: Mapping[str, Struck] = EXAMPLES) -> HTML:
 def methods() -> HTML:
     """Return the forces by other methods beside the full model, and what each takes for granted.
 
-    The reference truck strikes the column of the explorers, over speed and over mass.
+    The reference truck strikes the column of the explorers, over speed and over mass. Sources of
+    the methods, and whether they were read there, stand in the table.
+
+    Returns
+    -------
+    HTML
+        The forces as a figure, and the table, as a notebook shows them.
+
+    Examples
+    --------
+    >>> from pierimpact import maps
+    >>> page = maps.methods()
+    >>> "JCSS Probabilistic Model Code" in page.data
+    True
     """
     scenario = Scenario()
     truck, pier, speed = scenario.truck, scenario.pier, scenario.speed

@@ -108,15 +108,29 @@ class Revealed:
 def ask(lesson: str) -> PredictionBox:
     """Return the prediction of a lesson, to be made before its explorer shows.
 
+    Once it is locked it is kept in the file of the lesson, in the folder of the notebook.
+
     Parameters
     ----------
     lesson : str
         Name of the notebook's subject, such as "collision".
 
+    Returns
+    -------
+    PredictionBox
+        The choices and a button, as a notebook shows them.
+
     Raises
     ------
     InputError
         When there is no such lesson.
+
+    Examples
+    --------
+    >>> from pierimpact import predictions
+    >>> prediction = predictions.ask("collision")
+    >>> prediction.choice.options[1]
+    'two spikes: first the engine’s, later the cargo’s'
     """
     return PredictionBox(lesson)
 
@@ -130,5 +144,23 @@ def reveal(lesson: str, explorer: Explorer) -> Revealed:
         Name of the lesson.
     explorer : Explorer
         Its explorer, such as `widgets.collision()`.
+
+    Returns
+    -------
+    Revealed
+        The explorer with what came of the prediction, as a notebook shows them.
+
+    Raises
+    ------
+    InputError
+        When there is no such lesson.
+
+    Examples
+    --------
+    >>> from pierimpact import predictions, widgets
+    >>> explorer = widgets.collision()
+    >>> revealed = predictions.reveal("collision", explorer)
+    >>> explorer.widget.layout.display  # until the prediction is locked
+    'none'
     """
     return Revealed(lesson, explorer)

@@ -17,7 +17,31 @@ from pierimpact.units import printed
 
 
 def truck_parameters(name: str = REFERENCE.name) -> HTML:
-    """Return a truck's parameters, each with its status and source."""
+    """Return a truck's parameters, each with its status and source.
+
+    Parameters
+    ----------
+    name : str, optional
+        A truck of the catalogue, or the path of a truck file.
+
+    Returns
+    -------
+    HTML
+        A table, as a notebook shows it.
+
+    Raises
+    ------
+    InputError
+        When there is no such truck, or its file breaks a rule.
+
+    Examples
+    --------
+    >>> import re
+    >>> from pierimpact import tables
+    >>> table = tables.truck_parameters("single-unit-8t")
+    >>> re.findall(">([^<]+)<", table.data)[4:7]
+    ['Engine mass', '700 kg', 'illustrative']
+    """
     file = read_truck_file(name)
     rows = [
         (BY_KEY[entry.name].heading, entry.given, entry.status, entry.source)
@@ -33,6 +57,23 @@ def code_values(speed: float = 80.0 / 3.6, mass: float = REFERENCE.mass) -> HTML
     ----------
     speed, mass : float, optional
         Of the vehicle, where the code asks for it [m/s], [kg].
+
+    Returns
+    -------
+    HTML
+        A table, as a notebook shows it.
+
+    Raises
+    ------
+    InputError
+        When speed or mass is not positive.
+
+    Examples
+    --------
+    >>> from pierimpact import tables
+    >>> table = tables.code_values(speed=25.0, mass=20e3)
+    >>> "1936 kN" in table.data  # hard impact by JCSS: v √(k m) with k = 0.3 MN/m
+    True
     """
     rows = []
     for code in code_forces(speed, mass):
@@ -47,7 +88,24 @@ def code_values(speed: float = 80.0 / 3.6, mass: float = REFERENCE.mass) -> HTML
 
 
 def accuracy() -> HTML:
-    """Return how the design procedure compares with the full model in the parametric study."""
+    """Return how the design procedure compares with the full model in the parametric study.
+
+    Of the reactions by the procedure over those by the full model: mean, coefficient of variation
+    and percentiles [-], by the study in `pierimpact.design.study`.
+
+    Returns
+    -------
+    HTML
+        A table, as a notebook shows it.
+
+    Examples
+    --------
+    >>> import re
+    >>> from pierimpact import tables
+    >>> table = tables.accuracy()
+    >>> re.findall(">([^<]+)<", table.data)[7:11]  # level, reaction, collisions, mean
+    ['short', 'engine', '6000', '1.07']
+    """
     outcome = json.loads(OUTCOME_FILE.read_text(encoding="utf-8"))
     columns = (
         ("Collisions", "cases", "d"),
@@ -66,7 +124,24 @@ def accuracy() -> HTML:
 
 
 def static_forces() -> HTML:
-    """Return what the rules for static member forces tell, by the study behind them."""
+    """Return what the rules for static member forces tell, by the study behind them.
+
+    Of the static shear and moment over those of the column as a beam: quantiles, and the share of
+    columns where they are too low [-], by the study in `pierimpact.design.static_study`.
+
+    Returns
+    -------
+    HTML
+        A table, as a notebook shows it.
+
+    Examples
+    --------
+    >>> import re
+    >>> from pierimpact import tables
+    >>> table = tables.static_forces()
+    >>> re.findall(">([^<]+)<", table.data)[9:12]  # kind, columns, 5 % quantile of the shear
+    ['Pier frequency from 55 Hz', '748', '0.91']
+    """
     found = json.loads(static_study.OUTCOME_FILE.read_text(encoding="utf-8"))["conclusions"]
     by_column, by_collision = (found[name] for name in static_study.RULES)
     groups = {

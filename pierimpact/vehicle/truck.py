@@ -19,7 +19,18 @@ QUANTITIES = tuple(name for name in PARAMETERS if name != "friction_on")
 
 
 class MassRangeWarning(UserWarning):
-    """A truck is lighter or heavier than its other parameters stand for."""
+    """A truck is lighter or heavier than its other parameters stand for.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from pierimpact import load_truck
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     truck = load_truck("single-unit-8t").with_mass(40e3)
+    >>> str(caught[0].message).partition(":")[0]
+    'A 40 t mass on the springs of single-unit-8t is another truck'
+    """
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -40,6 +40,18 @@ class Sheet:
         The case.
     case_file, case_sha256 : str or None, optional
         Name and SHA-256 of the case file, where it is known, for the provenance.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(file.case, file.name, file.sha256)
+    >>> sheet.model.peaks().rows[0]  # a notebook shows the table; contact, peak [kN], its time [ms]
+    ['Engine', '25.70', '7157', '31.01', 'governs']
+    >>> sheet.first_page.utilisations() is None  # the case gives no resistance
+    True
     """
 
     def __init__(

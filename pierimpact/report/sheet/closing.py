@@ -40,6 +40,16 @@ class Closing(Section):
         The sections before, in the order of the sheet.
     case_file, case_sha256 : str or None
         Name and SHA-256 of the case file, where it is known.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(file.case, file.name, file.sha256)
+    >>> dict(sheet.closing.provenance().rows)["To repeat"].text
+    'pierimpact report tti-column.yaml'
     """
 
     sections: Sequence[Section]

@@ -12,7 +12,19 @@ _UNKNOWN = "—"
 
 
 class Codes(Section):
-    """The comparison with codes."""
+    """The comparison with codes.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(file.case)
+    >>> code, force, height, *_ = sheet.codes.effects().rows[1]
+    >>> code, force, height  # kN, m
+    ('AASHTO LRFD', '2668.9', '1.5')
+    """
 
     def bars(self) -> Block:
         """Return the forces of codes beside the averages of the contact force and the reaction."""

@@ -15,7 +15,18 @@ from pierimpact.units import printed
 
 
 class Derivation(PierSection):
-    """How the values of a uniform column come about; any other has but its section here."""
+    """How the values of a uniform column come about; any other has but its section here.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import case_from, read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(case_from(file.values | {"annexes": ["pier"]}))
+    >>> sheet.derivation.ordinates().rows[4]  # height [m], shape function and its square there
+    ['1.2000', '1.000', '1.000']
+    """
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the derivation, by name."""

@@ -19,7 +19,18 @@ _SPEED_AT = {"t1": "v1", "t2": "v2"}
 
 
 class DesignProcedure(Section):
-    """The design procedure at its long level."""
+    """The design procedure at its long level.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import case_from, read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(case_from(file.values | {"annexes": ["procedure"]}))
+    >>> sheet.procedure.check().rows[-1]  # full model [kN], long level [kN], ratio
+    ['Governing', '7157', '7469', '1.04']
+    """
 
     def steps(self, part: str) -> Block:
         """Return a part of the procedure, one of PARTS."""

@@ -57,7 +57,18 @@ class PierSection(Section):
 
 
 class EquivalentPierSteps(PierSection):
-    """The column as one degree of freedom."""
+    """The column as one degree of freedom.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(file.case)
+    >>> sheet.pier.mass_of_column().body
+    'The equivalent mass is 0.811 times that of the column, 7880.3 kg.'
+    """
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the pier, by name."""

@@ -29,7 +29,18 @@ _FIRST_WARNINGS = 4
 
 
 class FirstPage(Section):
-    """The first page."""
+    """The first page.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import case_from, read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(case_from(file.values | {"shear_resistance": "8 MN"}))
+    >>> sheet.first_page.utilisations().rows[0][-3:]  # utilisation, at 95 %, verdict
+    ['0.821', '1.07', 'within, but EXCEEDS at 95 %']
+    """
 
     def title_block(self) -> Block:
         """Return the head of the sheet."""

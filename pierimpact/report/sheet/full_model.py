@@ -13,7 +13,18 @@ from pierimpact.units import rounded
 
 
 class FullModel(Section):
-    """The collision by the full model."""
+    """The collision by the full model.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(file.case)
+    >>> sheet.model.averages().rows[2]  # of the contact force [kN], and from when on [ms]
+    ['Over 25 ms', '3749', '123.6']
+    """
 
     def equations(self) -> Block:
         """Return the equations of motion and the crush law that the full model solves."""

@@ -13,7 +13,18 @@ from pierimpact.symbols import BY_KEY, NAMES, Symbol
 
 
 class Inputs(Section):
-    """What the calculation starts from."""
+    """What the calculation starts from.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(file.case)
+    >>> sheet.inputs.truck().rows[0]  # mass [kg], force [kN], length [m], stiffnesses [MN/m]
+    ['Engine, 1', '700', '150', '0.5', '150', '900']
+    """
 
     def case_table(self) -> Block:
         """Return the inputs of the case, with source and status."""

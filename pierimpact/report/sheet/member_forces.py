@@ -14,7 +14,19 @@ from pierimpact.units import rounded
 
 
 class MemberForces(Section):
-    """The forces in the column by two methods: the column as a beam, and the static reaction."""
+    """The forces in the column by two methods: the column as a beam, and the static reaction.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(file.case)
+    >>> largest_moment = sheet.member_forces.table().rows[-1]
+    >>> largest_moment[2], largest_moment[4], largest_moment[6]  # static, beam, unit
+    ('5650', '4142', 'kN·m')
+    """
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the member forces, by name."""

@@ -13,7 +13,20 @@ from pierimpact.units import rounded
 
 
 class Variations(Section):
-    """What the reaction depends on."""
+    """What the reaction depends on.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.plots.figures import figure_of
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(file.case)
+    >>> figure = figure_of(sheet.sensitivity.tornado)
+    >>> figure.axes[0].get_yticklabels()[0].get_text()  # what moves the reaction most
+    'Engine mass $m_1$'
+    """
 
     def tornado(self) -> Block:
         """Return what moves the governing reaction most."""
@@ -35,7 +48,19 @@ class Variations(Section):
 
 
 class Sensitivities(Section):
-    """Annex: the reaction over speed, mass, height and frequency, and the band of the truck."""
+    """Annex: the reaction over speed, mass, height and frequency, and the band of the truck.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import case_from, read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(case_from(file.values | {"annexes": ["sensitivity"]}))
+    >>> change, value, by_hand, full_model, *_ = sheet.sensitivities.table().rows[1]
+    >>> change, value, by_hand, full_model  # kN
+    ('Speed less 10 km/h', '70 km/h', '5412', '5285')
+    """
 
     def figure(self) -> Block:
         """Return the governing reaction against speed, mass, impact height and pier frequency."""

@@ -18,7 +18,18 @@ _ABREAST = 3  # starting values on a line
 
 
 class SpectrumMethod(Section):
-    """The short level of the design procedure, and its ratio to the full model."""
+    """The short level of the design procedure, and its ratio to the full model.
+
+    Examples
+    --------
+    >>> from pierimpact.files.case import read_case_file
+    >>> from pierimpact.report.sheet import Sheet
+    >>> from pierimpact.resources import shipped
+    >>> file = read_case_file(shipped("notebooks") / "tti-column.yaml")
+    >>> sheet = Sheet(file.case)
+    >>> sheet.spectrum_method.check().rows[-1]  # full model [kN], spectrum method [kN], ratio
+    ['Governing', '7157', '7470', '1.04']
+    """
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the short level, by name."""
