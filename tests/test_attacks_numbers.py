@@ -180,6 +180,19 @@ def test_hundreds_of_contacts_are_those_of_the_reference(ratio, changes):
     assert found == pytest.approx([reference.engine, reference.cargo], rel=1e-7, nan_ok=True)
 
 
+@pytest.mark.parametrize("number", [677, 858], ids=["hops", "yields"])
+def test_a_pier_that_for_ever_presses_against_a_truck_at_rest_ends(monkeypatch, number):
+    """It hops on a body that friction holds, undamped; or yields under its spring with just R_y."""
+    monkeypatch.setattr(propagation, "STEPS", 10_000)
+    case = wide_collisions(number + 1, seed=1015)[number]
+    history = simulate(*case)
+    longer = simulate(*case, duration=1.2 * history.end.time)
+    assert longer.ductility == pytest.approx(history.ductility, rel=1e-9)
+    for peak, same in zip(history.peaks.values(), longer.peaks.values(), strict=True):
+        assert (peak and peak.reaction) == (same and same.reaction)
+    assert longer.cargo_contact_time == history.cargo_contact_time
+
+
 def test_a_plateau_of_a_nanometre_before_a_pier_that_yields_ends():
     force = 0.5 * LENGTH * 1e9
     spring = CrushSpring(

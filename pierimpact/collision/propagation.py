@@ -21,7 +21,7 @@ from pierimpact.collision.series import ARRAYS, FLOATS, Flag, Ops, Real
 from pierimpact.collision.stepping import advance, finished
 
 # Numerical settings.
-STEPS = 400_000  # limit; no collision of the studied domain takes a thousandth of it
+STEPS = 200_000  # limit; no collision of the studied domain takes a thousandth of it
 TOGETHER = 2_000  # of them side by side; one that takes more goes on alone
 LONGER = 100_000  # as many more where a longer history is asked for
 SHOWN = 10  # indices in a warning

@@ -167,7 +167,7 @@ def peak_reactions(
         When a collision does not come to an end within a limit of steps; all its results are nan,
         and the warning has its index. None is known to: a pier that has less than a twentieth of
         the truck's mass and hardly resists, far below 1 Hz or with a yield reaction of some kN,
-        bounces on the truck thousands of times before it has stopped it and takes a tenth of the
+        bounces on the truck thousands of times before it has stopped it and takes a quarter of the
         limit and some seconds; no real truck and pier need a thousandth.
 
     Examples

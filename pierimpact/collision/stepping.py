@@ -360,11 +360,17 @@ def at_rest(
     there = where(there > 0.0, there, 0.0)
     kept = where(there > friction, friction * (there - 0.5 * friction), 0.5 * there**2) / stiffness
     out_of_reach = 2.0 * energy <= parameters.pier_stiffness * target**2 * (1.0 + 1e-9) + 2.0 * kept
-    # Neither does the pier come back to the engine, nor the body's spring to its end.
+    # Neither does the pier come back to the engine, nor the body's spring to its end. There the
+    # pier still has energy: k_p x²/2, or if k_p x exceeds c_s, less by what the body slides back.
     behind = state.position.d1 + state.position.xp - state.engine.upper
     apart = (behind < 0.0) & (parameters.pier_stiffness * behind**2 > 2.0 * energy)
     needed = 0.5 * body.plateau_force**2 / stiffness
     needed = needed + body.plateau_force * (body.plateau_length - state.body.largest)
+    end = state.elastic_displacement(ops) + state.position.d2 - body.plateau_length
+    pull = parameters.pier_stiffness * end
+    slides = pull > friction
+    work = friction * (end - 0.5 * friction / parameters.pier_stiffness)
+    needed = needed + where(slides, work, 0.5 * pull * end)
     no_contact = (state.cargo_contact == state.cargo_contact) | (needed > energy)
     return out_of_reach & apart & no_contact
 
@@ -397,10 +403,11 @@ def finished(parameters: Parameters, state: State, ops: Ops) -> Flag:
     elastic = state.elastic_displacement(ops)
     energy = 0.5 * (stiffness * elastic**2 + mass * state.position.vp**2)
     decided, left = prospects(parameters, state, energy, ops)
-    left = left & (state.time > state.last_change + swing(parameters, ops))
+    late = state.time > state.last_change + swing(parameters, ops)
+    left = left & late
     if yielding is not None:
-        elastic = yielding.direction == 0.0
-        decided, left = decided & elastic, left & (elastic | held(parameters, state, yielding))
+        elastic, rests = yielding.direction == 0.0, held(parameters, state, yielding)
+        decided, left = decided & (elastic | (late & rests)), left & (elastic | rests)
     return decided | left
 
 
@@ -415,10 +422,12 @@ def swing(parameters: Parameters, ops: Ops) -> Real:
 def held(parameters: Parameters, state: State, yielding: Yielding) -> Flag:
     """Say whether a pier that yields hardly moves under the spring of a body at rest.
 
-    About the force R_y of the spring it vibrates with no more than its present amplitude.
+    About the force R_y of the spring it vibrates with no more than its present amplitude. An engine
+    that still touches it adds its force.
     """
     line, position = state.body, state.position
     surplus = line.intercept + line.slope * position.d2
+    surplus = surplus + state.engine.intercept + state.engine.slope * position.d1
     surplus = surplus - yielding.direction * yielding.limit * parameters.pier_stiffness
     square = surplus**2 + line.slope * parameters.pier_mass * position.vp**2
     return square <= (HARDLY * line.slope * yielding.largest) ** 2
