@@ -1,10 +1,11 @@
 """Time of a report beyond the kernel's own start: python benchmarks/report.py.
 
 Runs `pierimpact report` on the example, in turn with the start of a kernel that executes nothing,
-alone and by way of papermill. Prints medians, least and most of each, of the differences and of the
-report's parts.
+alone and by way of papermill, and on ten cases. Prints medians, least and most of each, of the
+differences and of the report's parts.
 """
 
+import shutil
 import statistics
 import subprocess
 import sys
@@ -15,7 +16,7 @@ from pathlib import Path
 import nbformat
 from nbformat import v4
 
-ROUNDS = 9
+ROUNDS, CASES = 5, 10
 EXAMPLE = Path(__file__).parent.parent / "notebooks" / "tti-column.yaml"
 EMPTY = """
 import papermill
@@ -45,7 +46,8 @@ lap()
 path = Path(sys.argv[1])
 case_file = read_case_file(path); calculate(case_file.case); lap()
 write.import_libraries(); lap()
-notebook = write._execute(case_file.parameters, path.parent, Path("x.ipynb"), lambda: None)
+with write.start_kernels([path]) as kernels:
+    notebook = write._execute(case_file, path.parent, Path("x.ipynb"), kernels, lambda: None)
 lap()
 exporters.SheetHTMLExporter().from_notebook_node(notebook); lap()
 exporters.SheetPDFExporter().from_notebook_node(notebook); lap()
@@ -63,7 +65,11 @@ def seconds(folder, *command):
 
 with tempfile.TemporaryDirectory() as folder:
     nbformat.write(v4.new_notebook(cells=[v4.new_code_cell("")]), Path(folder) / "empty.ipynb")
-    whole, kernel, route, parts = [], [], [], []
+    cases = Path(folder) / "cases"
+    cases.mkdir()
+    for number in range(CASES):
+        shutil.copy(EXAMPLE, cases / f"pier-{number}.yaml")
+    whole, kernel, route, parts, many = [], [], [], [], []
     for _ in range(ROUNDS + 1):  # the first is not counted
         report = seconds(folder, sys.executable, "-m", "pierimpact", "report", EXAMPLE)[0]
         empty = seconds(folder, sys.executable, "-c", EMPTY)[0]
@@ -72,7 +78,8 @@ with tempfile.TemporaryDirectory() as folder:
         route.append(empty)
         kernel.append(float(seconds(folder, sys.executable, "-c", KERNEL)[1]))
         parts.append([float(share) for share in shares.split()])
-whole, kernel, route, parts = (values[1:] for values in (whole, kernel, route, parts))
+        many.append(seconds(folder, sys.executable, "-m", "pierimpact", "report", cases)[0])
+whole, kernel, route, parts, many = (values[1:] for values in (whole, kernel, route, parts, many))
 beyond_kernel, beyond_route = (
     [report - empty for report, empty in zip(whole, times, strict=True)]
     for times in (kernel, route)
@@ -83,6 +90,9 @@ for name, values in (
     ("report beyond it", beyond_kernel),
     ("empty notebook by papermill", route),
     ("report beyond it", beyond_route),
+    (f"{CASES} cases", many),
     *zip((f"  {name}" for name in NAMES), zip(*parts, strict=True), strict=True),
 ):
     print(f"{name:28} {statistics.median(values):5.2f} s ({min(values):.2f} to {max(values):.2f})")
+ratio = statistics.median(ten / one for ten, one in zip(many, whole, strict=True))
+print(f"{CASES} cases take {ratio:.1f} times as long as one")
