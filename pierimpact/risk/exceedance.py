@@ -52,6 +52,8 @@ class Exceedance:
         most = np.maximum.accumulate(self.weights)
         # Where no draw exceeds, the next that would counts as much as the largest.
         self._most = np.concatenate((most[:1], most)) if len(most) else none
+        # The shares with the number that exceed, by confidence: of a million they take a second.
+        self._grown: dict[float, Estimate] = {}
 
     def rate(self, value: ArrayLike, confidence: float = CONFIDENCE) -> Estimate:
         """Return how often these values are exceeded, with the band [1/s]."""
@@ -64,10 +66,11 @@ class Exceedance:
         Zero where even that is not exceeded so often; infinite where the draws cannot tell.
         """
         share = positive("rate", rate) / self.frequency
-        found = self._shares(np.arange(len(self.values) + 1), confidence)
+        if confidence not in self._grown:
+            found = self._shares(np.arange(len(self.values) + 1), confidence)
+            self._grown[confidence] = Estimate(*map(np.maximum.accumulate, found))
         values = np.concatenate(((math.inf,), self.values, (0.0,)))
-        grown = (np.maximum.accumulate(part) for part in found)  # with the number that exceed
-        return Estimate(*(values[np.searchsorted(part, share)] for part in grown))
+        return Estimate(*(values[np.searchsorted(each, share)] for each in self._grown[confidence]))
 
     @property
     def total(self) -> Estimate:
