@@ -216,9 +216,21 @@ def test_output_that_cannot_be_written_or_encoded(arguments):
         assert json.loads(done.stdout) == case_schema()
 
 
+@pytest.fixture
+def heard(number):
+    """See to it that a signal is not ignored, as one is in what `nohup` starts."""
+    before = signal.getsignal(number)
+    if before == signal.SIG_IGN:
+        signal.signal(number, signal.SIG_DFL)
+    yield number
+    signal.signal(number, before)
+
+
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs the signals of POSIX")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_signals_end_a_command_as_ctrl_c_does(monkeypatch, capsys, number):
+def test_signals_end_a_command_as_ctrl_c_does(monkeypatch, capsys, heard):
+    number = heard
+
     def interrupted():
         try:
             os.kill(os.getpid(), number)
