@@ -248,7 +248,7 @@ def growth_row() -> Row:
 
 
 def main() -> None:
-    """Measure, print, and put the table into the PAGE."""
+    """Measure, print, and put the table into the page."""
     exact, ours = converged(), seconds(spectrum, 15)
     rows = [*spectrum_rows(exact, ours), *single_rows(), growth_row()]
     few = seconds(lambda: peak_reactions(TRUCK, MASS, STIFFNESS[EVERY], DAMPING, SPEED), 15)

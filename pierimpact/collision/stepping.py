@@ -358,7 +358,7 @@ def at_rest(
         target = where(peak >= limit * (1.0 - ROUND_OFF), limit, peak)
     there = now - stiffness * (target - state.position.xp)
     there = where(there > 0.0, there, 0.0)
-    kept = where(there > friction, friction * (there - 0.5 * friction), 0.5 * there**2) / stiffness
+    kept = _held_back(there, friction, ops) / stiffness
     out_of_reach = 2.0 * energy <= parameters.pier_stiffness * target**2 * (1.0 + 1e-9) + 2.0 * kept
     # Neither does the pier come back to the engine, nor the body's spring to its end. There the
     # pier still has energy: k_p x²/2, or if k_p x exceeds c_s, less by what the body slides back.
@@ -368,11 +368,14 @@ def at_rest(
     needed = needed + body.plateau_force * (body.plateau_length - state.body.largest)
     end = state.elastic_displacement(ops) + state.position.d2 - body.plateau_length
     pull = parameters.pier_stiffness * end
-    slides = pull > friction
-    work = friction * (end - 0.5 * friction / parameters.pier_stiffness)
-    needed = needed + where(slides, work, 0.5 * pull * end)
+    needed = needed + _held_back(pull, friction, ops) / parameters.pier_stiffness
     no_contact = (state.cargo_contact == state.cargo_contact) | (needed > energy)
     return out_of_reach & apart & no_contact
+
+
+def _held_back(force: Real, friction: Real, ops: Ops) -> Real:
+    """Return F²/2, or where a force F exceeds friction c_s what sliding leaves, c_s F − c_s²/2."""
+    return ops.where(force > friction, friction * (force - 0.5 * friction), 0.5 * force**2)
 
 
 def kept_by_spring(
