@@ -466,12 +466,12 @@ def test_mass_at_the_top_enters_with_the_square_of_the_shape():
         (
             {"steps": [Step(height=2.0, section=EXAMPLE["section"])] * 2},
             r"steps\[2\]\.height must be above 2 m and below the height 5 m, got 2 m: no part may "
-            "have a length of zero",
+            "be shorter than 5e-06 m",
         ),
         (
             {"steps": [Step(height=5.0, section=EXAMPLE["section"])]},
             r"steps\[1\]\.height must be above 0 m and below the height 5 m, got 5 m: no part may "
-            "have a length of zero",
+            "be shorter than 5e-06 m",
         ),
     ],
 )

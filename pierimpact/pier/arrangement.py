@@ -6,6 +6,10 @@ from typing import NamedTuple
 
 from pierimpact.checks import InputError
 
+# Numerical: joints closer than this share of the length are one. Moving one as far changes the
+# column as little as the round-off of so short a part does.
+CLOSE = 1e-8
+
 
 class Part(NamedTuple):
     """A uniform part of a column, between two heights."""
@@ -55,12 +59,19 @@ class Arrangement(NamedTuple):
     top_mass: float = 0.0  #: [kg]
 
     def with_joint(self, height: float) -> tuple["Arrangement", int]:
-        """Return the same column with a joint at a height [m], and the number of parts below it."""
+        """Return the same column with a joint at a height [m], and the number of parts below it.
+
+        A joint between two parts that is all but there is moved there: 4 ft 2 in and 50 in differ
+        by round-off, and a part that short would leave nothing but round-off of the column.
+        """
+        joints = [self.parts[0].bottom, *(part.top for part in self.parts)]
+        near = CLOSE * (joints[-1] - joints[0])
+        joints[1:-1] = [height if abs(joint - height) < near else joint for joint in joints[1:-1]]
         parts = []
-        for part in self.parts:
-            cut = [height] if part.bottom < height < part.top else []
-            ends = pairwise([part.bottom, *cut, part.top])
-            parts += [part._replace(bottom=bottom, top=top) for bottom, top in ends]
+        for part, (bottom, top) in zip(self.parts, pairwise(joints), strict=True):
+            cut = [height] if bottom < height < top else []
+            ends = pairwise([bottom, *cut, top])
+            parts += [part._replace(bottom=low, top=high) for low, high in ends]
         return self._replace(parts=tuple(parts)), sum(part.top <= height for part in parts)
 
 

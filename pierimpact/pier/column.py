@@ -30,6 +30,8 @@ from pierimpact.pier.unit_force import BY_ENDS
 END_CONDITIONS = tuple(SUPPORTS)
 #: Poisson's ratio unless another is given: this project's assumption, usual for concrete.
 POISSON_RATIO = 0.2
+#: Numerical: the shortest part as a share of the height, short of which round-off would grow.
+SHORTEST = 1e-6
 _SPRINGS = ("base_stiffness", "base_rotation_stiffness", "top_stiffness", "top_rotation_stiffness")
 
 
@@ -108,7 +110,8 @@ class PierColumn:
     ------
     InputError
         When a value is out of its range, both kinds of stiffness are given, a step is not above
-        the one below it and within the column, or the ends leave the column a mechanism.
+        the one below it and within the column, by a millionth of the height, or the ends leave the
+        column a mechanism.
 
     Examples
     --------
@@ -154,14 +157,15 @@ class PierColumn:
         one_of("top", self.top, END_CONDITIONS)
         refuse_mechanism(*self.supports)
         object.__setattr__(self, "steps", tuple(self.steps))
-        below = 0.0
+        below, least = 0.0, SHORTEST * self.height
         for place, step in enumerate(self.steps, 1):
             if not isinstance(step, Step):
                 raise InputError(f"steps must be Steps, got {step!r}")
-            if not below < step.height < self.height:
+            if not below + least <= step.height <= self.height - least:
                 raise InputError(
                     f"steps[{place}].height must be above {below:g} m and below the height "
-                    f"{self.height:g} m, got {step.height:g} m: no part may have a length of zero"
+                    f"{self.height:g} m, got {step.height:g} m: no part may be shorter than "
+                    f"{least:g} m"
                 )
             below = step.height
 
