@@ -40,8 +40,11 @@ from pierimpact.report.kernel_process import start
 start({private}, {starter})
 """
 _ENTER = "from pierimpact.report.kernel_process import enter; enter({folder})"
-# An error in a cell is in its output; the interrupt that ends the kernel is none.
-_ARGUMENTS = ["--log-level=CRITICAL"]
+# An error in a cell is in its output; the interrupt that ends the kernel is none. The notebook is
+# the history of what was run, and there is no other.
+_ARGUMENTS = ["--log-level=CRITICAL", "--HistoryManager.enabled=False"]
+# A report's matrices are small: threads would only wait for each other, and for those of another.
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 _PATIENCE = 300  # with a kernel that lives and does not answer, as on a busy machine [s]
 
 
@@ -178,4 +181,5 @@ def _environment(private: Path) -> dict[str, str]:
     """Return the environment of a kernel with a folder of its own."""
     own = ("IPYTHONDIR", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR")
     kept = {key: text for key, text in os.environ.items() if not key.startswith(_OF_THE_USER)}
-    return kept | dict.fromkeys(own, str(private)) | {"MPLBACKEND": "agg"}
+    private_folders = dict.fromkeys(own, str(private))
+    return dict.fromkeys(_THREADS, "1") | kept | private_folders | {"MPLBACKEND": "agg"}
