@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 
@@ -19,6 +20,8 @@ HOOKS = yaml.safe_load((HOUSE / ".pre-commit-config.yaml").read_text("utf-8"))["
 
 @pytest.mark.parametrize("hook", HOOKS, ids=[hook["id"] for hook in HOOKS])
 def test_rule_is_kept(hook):
+    if hook["id"] == "types" and np.lib.NumpyVersion(np.__version__) < "2.4.0":
+        pytest.skip("types follow the annotations of NumPy 2.4: pip install 'numpy>=2.4'")
     command, *arguments = shlex.split(hook["entry"])
     if hook.get("types") == ["jupyter"]:
         arguments += sorted((HOUSE / "notebooks").glob("*.ipynb"))
