@@ -19,13 +19,13 @@ from pierimpact.report.summary import Row, summary_blocks, summary_csv
 from pierimpact.report.write import (
     Report,
     ReportError,
-    convert,
     files_of,
     folder_for,
     import_libraries,
     reason_of,
     stages,
     start_kernels,
+    write_blocks,
     write_report,
 )
 
@@ -295,11 +295,10 @@ def _write_summary(
     results: Sequence[Report | Failure], output_dir: Path, docx: bool, force: bool
 ) -> Summary:
     """Write the summary in all its formats, all or none."""
-    notebook_of = import_module("pierimpact.report.exporters").notebook_of  # slow to import
     rows = _rows(results)
     with folder_for(output_dir) as folder:
         html, pdf, csv, *word = (folder / file for file in _summary_files(docx))
-        convert(notebook_of(summary_blocks(rows)), (html, pdf, *word))
+        write_blocks(summary_blocks(rows), (html, pdf, *word))
         csv.write_bytes(summary_csv(rows).encode("utf-8"))
         return Summary(*put_unchanged((html, pdf, csv, *word), output_dir, force=force))
 

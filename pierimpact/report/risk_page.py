@@ -3,7 +3,6 @@
 import csv
 import io
 from collections.abc import Iterator
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +24,7 @@ from pierimpact.report.risk import (
     value_text,
     yearly,
 )
-from pierimpact.report.write import convert, folder_for
+from pierimpact.report.write import folder_for, write_blocks
 from pierimpact.risk.traffic import YEAR
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
@@ -53,10 +52,9 @@ def write_risk(name: str, result: CaseRisk, output_dir: str | Path) -> list[Path
         When the folder cannot be written to.
     """
     output_dir = Path(output_dir).absolute()
-    notebook_of = import_module("pierimpact.report.exporters").notebook_of  # slow to import
     with folder_for(output_dir) as folder:
         page, curve = (folder / f"{name}-risk.{ending}" for ending in ("html", "csv"))
-        convert(notebook_of(risk_blocks(name, result)), (page,))
+        write_blocks(risk_blocks(name, result), (page,))
         curve.write_bytes(risk_csv(result).encode())
         return put_in_place((page, curve), output_dir)
 

@@ -4,7 +4,7 @@ import contextlib
 import json
 import logging
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from importlib import import_module
@@ -24,6 +24,7 @@ from pierimpact.report.results import Results
 from pierimpact.resources import shipped
 
 if TYPE_CHECKING:
+    from pierimpact.report.document.blocks import Block
     from pierimpact.report.kernel import Kernels
 
 #: Modules and classes of the exporters by the endings of their files; slow to import.
@@ -244,6 +245,13 @@ def _as_papermill_has_it(path: Path) -> str:
     return str(path).replace("{", "{{").replace("}", "}}")
 
 
+def write_blocks(blocks: Iterable["Block"], files: Sequence[Path]) -> None:
+    """Write a document of these blocks to files, as what their endings say."""
+    with _without_grammar():
+        notebook_of = import_module("pierimpact.report.exporters").notebook_of
+    convert(notebook_of(blocks), files)
+
+
 def convert(
     notebook: Any, files: Sequence[Path], on_stage: Callable[[], object] = lambda: None
 ) -> list[str]:
@@ -255,7 +263,8 @@ def convert(
         on_stage()
         return list(resources.get("warnings", []))
 
-    _import_exporters()
+    for file in files:
+        exporter_for(file.suffix)  # imported by one thread only
     with ThreadPoolExecutor(len(files)) as executor:
         return [warning for warnings in executor.map(write, files) for warning in warnings]
 
@@ -264,7 +273,8 @@ def convert(
 def exporter_for(ending: str) -> Any:
     """Return the exporter that writes files of this ending, with its template read."""
     module, name = _EXPORTERS[ending]
-    exporter = getattr(import_module(module), name)()
+    with _without_grammar():
+        exporter = getattr(import_module(module), name)()
     assert exporter.template
     return exporter
 
@@ -319,18 +329,24 @@ def import_libraries() -> None:
 
 
 def _import_papermill() -> Any:
-    """Import papermill, in one to two seconds less where JupyterLab is installed.
-
-    There jsonschema, with which papermill checks notebooks, finds rfc3987_syntax, which compiles
-    a grammar of web addresses on import; notebooks have none to check.
-    """
     logging.getLogger("papermill").addHandler(logging.NullHandler())  # its errors are raised
     logging.getLogger("papermill").propagate = False
+    with _without_grammar():
+        return import_module("papermill")
+
+
+@contextlib.contextmanager
+def _without_grammar() -> Iterator[None]:
+    """Import what checks notebooks in one to two seconds less where JupyterLab is installed.
+
+    There jsonschema, which checks them, finds rfc3987_syntax, which compiles a grammar of web
+    addresses on import; notebooks have none to check.
+    """
     grammar = "rfc3987_syntax"
     modules: dict[str, Any] = sys.modules
     modules.setdefault(grammar, None)
     try:
-        return import_module("papermill")
+        yield
     finally:
         if modules.get(grammar) is None:
             modules.pop(grammar, None)  # another thread may have been here first
