@@ -10,6 +10,9 @@ from collections.abc import Sequence
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code: 2 for bad input, 1 for any other failure."""
     try:
+        from pierimpact.garbage import collect_seldom
+
+        collect_seldom()
         from pierimpact.cli.commands import run
 
         return run(arguments)

@@ -12,7 +12,8 @@ from typing import Any
 from ipykernel.kernelapp import IPKernelApp
 from IPython import get_ipython
 
-_GARBAGE = 50_000  # numerical: so many new objects before any are looked through for garbage
+from pierimpact.garbage import collect_seldom
+
 _PAUSE = 0.2  # this project's choice: how long a kernel may outlive its starter [s]
 
 
@@ -46,7 +47,7 @@ def start(private: str, starter: int) -> None:
     """
     Thread(target=_end_with, args=(starter, private), daemon=True).start()
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # a home may be read-only
-    gc.set_threshold(_GARBAGE)
+    collect_seldom()
     import_module("pierimpact.report.sheet")
     gc.freeze()  # what is imported stays
     IsolatedKernel.launch_instance()
