@@ -3,6 +3,8 @@
 import math
 import re
 import sys
+from decimal import Decimal
+from fractions import Fraction
 from functools import cache
 from importlib import import_module
 from typing import Any, NamedTuple
@@ -74,6 +76,7 @@ _MIXED = r"(\d+(?:\.\d*)?|\.\d+|(?:\d+[\s-]+)?\d+/\d+)"
 _FEET_AND_INCHES = re.compile(
     rf"\s*(-?)\s*(?:{_MIXED}\s*(?:ft\.?|'))?\s*-?\s*(?:{_MIXED}\s*(?:inch|in\.?|\"))?\s*", re.ASCII
 )
+_INCH = Fraction("0.0254")  # [m]
 _PRIMES = str.maketrans("′’″”", "''\"\"")
 
 
@@ -93,8 +96,8 @@ def _pint() -> Any:
 
 @cache
 def _registry() -> Any:
-    """Return the unit registry; pint is imported on first use."""
-    registry = _pint().UnitRegistry(None)
+    """Return the unit registry, exact; pint is imported on first use."""
+    registry = _pint().UnitRegistry(None, non_int_type=Fraction)
     for definition in re.split(r"[;\n]", _DEFINITIONS):
         if definition.strip():
             registry.define(definition.strip())
@@ -102,7 +105,7 @@ def _registry() -> Any:
 
 
 @cache
-def _unit(expression: str) -> tuple[float, dict[str, float]] | None:
+def _unit(expression: str) -> tuple[Fraction, dict[str, Fraction]] | None:
     """Return a unit's size in SI units and its dimensions, or None where it is not understood."""
     pint = _pint()
     expression = expression.translate(_MARKS)
@@ -111,10 +114,10 @@ def _unit(expression: str) -> tuple[float, dict[str, float]] | None:
     expression = re.sub(r"([A-Za-z])(-?\d)", r"\1^\2", expression)
     expression = re.sub(r"^\s*/", "1/", expression)
     try:
-        size = (1.0 * _registry().parse_units(expression)).to_base_units()
+        size = (Fraction(1) * _registry().parse_units(expression)).to_base_units()
     except (pint.PintError, AttributeError):  # an undefined unit is an AttributeError to pint
         return None
-    return float(size.magnitude), dict(size.dimensionality)
+    return Fraction(size.magnitude), dict(size.dimensionality)
 
 
 def parse(name: str, value: object, dimension: str) -> float:
@@ -164,7 +167,18 @@ def parse(name: str, value: object, dimension: str) -> float:
         ]
         which = f", which is {nouns[0]}" if nouns else ""
         raise InputError(f"{name} must be {words} ({units}), got {shown}{which}")
-    return _finite(name, magnitude * size, value)
+    if magnitude and math.isfinite(magnitude):  # or exact numbers may have any number of digits
+        magnitude = _in_si(Decimal(match[1]), size)
+    return _finite(name, magnitude, value)
+
+
+def _in_si(number: Decimal | Fraction, size: Fraction) -> float:
+    """Return a number of units in SI units, rounded once: 3 ft is 36 in to the last bit."""
+    above, below = number.as_integer_ratio()
+    try:
+        return above * size.numerator / (below * size.denominator)
+    except OverflowError:
+        return math.inf
 
 
 def _finite(name: str, result: float, value: object) -> float:
@@ -182,26 +196,26 @@ def _feet_and_inches(name: str, text: str) -> float | None:
         return None
     whole, rest = _mixed(feet or "0"), _mixed(inches or "0")
     one = not (feet and inches)
-    if not match or sign or math.isnan(whole + rest) or not (one or (feet.isdigit() and rest < 12)):
+    written = match and not sign and (one or feet.isdigit())
+    if not written or whole is None or rest is None or not (one or rest < 12):
         raise InputError(
             f"{name} must have whole feet and inches below 12, as in 24 ft 6 in or 24'-6 1/2\", "
             f"got {brief(text)}"
         )
-    return _finite(name, (12.0 * whole + rest) * unit_size("section length", "US"), text)
+    return _finite(name, _in_si(12 * whole + rest, _INCH), text)
 
 
-def _mixed(text: str) -> float:
-    """Return a number such as "6.5" or "6 1/2"; not a number where its fraction is not below 1."""
+def _mixed(text: str) -> Fraction | None:
+    """Return a number such as "6.5" or "6 1/2"; None where its fraction is not below 1."""
     *whole, last = re.split(r"[\s-]+", text)
     above, slash, below = last.partition("/")
-    if not slash:
-        return float(last)
-    share = float(above) / float(below) if float(above) < float(below) else math.nan
-    return sum(map(float, whole)) + share
+    if slash and int(above) >= int(below):
+        return None
+    return sum(map(Fraction, whole), Fraction(last))
 
 
 @cache
-def _dimensions(dimension: str) -> dict[str, float] | None:
+def _dimensions(dimension: str) -> dict[str, Fraction] | None:
     unit = _unit(DIMENSIONS[dimension].si)
     return unit[1] if unit else None
 
@@ -219,7 +233,7 @@ def pattern(dimension: str) -> str:
     """
     definitions = [part.split("=") for part in re.split(r"[;\n]", _DEFINITIONS) if part.strip()]
     names = [name.strip() for first, _, *others in definitions for name in (first, *others)]
-    fitting = [name for name in names if (_unit(name) or (0.0, None))[1] == _dimensions(dimension)]
+    fitting = [name for name in names if (_unit(name) or (0, None))[1] == _dimensions(dimension)]
     some, one = (
         "|".join(name if f"{name}s" in names else f"{name}s?" for name in those)  # ms is no plural
         for those in (names, fitting)
@@ -319,9 +333,9 @@ class Printed(NamedTuple):
 def unit_size(quantity: str, system: str) -> float:
     """Return how large the unit is that a kind of value is printed in, in SI units."""
     expression, _ = QUANTITIES[quantity].unit(system)
-    unit = _unit(expression) if expression else (1.0, {})
+    unit = _unit(expression) if expression else (1, {})
     assert unit is not None
-    return unit[0]
+    return float(unit[0])
 
 
 def unit_of(quantity: str, system: str) -> str:

@@ -146,6 +146,12 @@ def test_the_larger_of_both_methods_governs_unless_one_is_asked_for():
             assert calculation.utilisations[name] == ratio
 
 
+def test_a_step_that_is_struck_is_so_in_whatever_words():
+    case = CASE | {"steps": [CASE["steps"][0] | {"height": "36 in"}]}
+    inches, feet = (Sheet(case_from(case | {"impact_height": z})) for z in ("36 in", "3 ft"))
+    assert inches.calculation.demands == feet.calculation.demands
+
+
 def test_the_page_says_which_method_governs(sheet):
     page = page_of(CASE)
     demands = sheet.calculation.demands

@@ -1,5 +1,6 @@
 import math
 import re
+from decimal import Decimal
 
 import pytest
 from hypothesis import given
@@ -109,6 +110,19 @@ def test_decimal_inches_parse_back(number, inches, feet):
     assert parse("value", f'{number:.6f}"', "length") == pytest.approx(number * INCH, abs=1e-6)
     found = parse("value", f"{feet} ft {inches:.9f} in", "length")
     assert found == pytest.approx((12 * feet + inches) * INCH, abs=1e-9)
+
+
+@given(st.integers(0, 10_000), st.integers(0, 11), st.integers(0, 99), st.integers(0, 4))
+def test_the_same_in_other_words_is_the_same_to_the_last_bit(feet, inches, hundredths, places):
+    total, metres = 12 * feet + inches, Decimal(inches + 12 * hundredths).scaleb(-places)
+    for words, others in (
+        (f"{total}.{hundredths:02} in", f"{feet} ft {inches}.{hundredths:02} in"),
+        (f"{3 * feet} ft", f"{feet} yd"),
+        (f"{36 * feet} in", f"{3 * feet} ft"),
+        (f"{metres:f} m", f"{1000 * metres:f} mm"),
+    ):
+        assert parse("value", words, "length") == parse("value", others, "length")
+    assert parse("value", f"{metres:f} m", "length") == float(metres)
 
 
 @pytest.mark.parametrize(
