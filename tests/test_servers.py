@@ -19,9 +19,11 @@ pytest.importorskip("voila")
 pytest.importorskip("jupyterlab")
 HOUSE = Path(__file__).parents[1]
 PATIENCE = 600  # only a server or a kernel that hangs takes longer [s]
-# The command, with few kernels and little patience for those without a page.
+# The command, with few kernels and little patience for those without a page; Ctrl-C ends it even
+# where the tests run in the background of a shell, which has its signal ignored.
 COMMAND = """
-import sys
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 from pierimpact.teaching import server
 server.MOST_KERNELS, server.COURSE_PATIENCE, server.PAGE_PATIENCE = 1, 4, 4
 from pierimpact.cli import main
