@@ -1,5 +1,6 @@
-"""The wheel, installed elsewhere, makes the report by itself."""
+"""The wheel, installed elsewhere, makes the report by itself, and says where it is from."""
 
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -7,6 +8,8 @@ import sys
 import sysconfig
 import venv
 from pathlib import Path
+
+import pytest
 
 ROOT = Path(__file__).parent.parent
 
@@ -57,3 +60,54 @@ def test_a_report_from_the_installed_wheel(tmp_path):
         cwd=elsewhere, env=clean,
     )  # fmt: skip
     assert (elsewhere / "reports" / "again.pdf").read_bytes() == files[2].read_bytes()
+
+
+@pytest.fixture(scope="module")
+def addresses():
+    spec = importlib.util.spec_from_file_location("addresses", ROOT / ".ci" / "addresses.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize(
+    "remote",
+    [
+        "https://forge.example.org/team/pierimpact.git",
+        "https://forge.example.org/team/pierimpact/",
+        "https://somebody:secret@forge.example.org:8443/team/pierimpact",
+        "git@forge.example.org:team/pierimpact.git",
+        "ssh://git@forge.example.org:2222/team/pierimpact.git",
+    ],
+)
+def test_the_address_of_a_public_remote_is_its_page(addresses, remote):
+    assert addresses.address(remote) == "https://forge.example.org/team/pierimpact"
+
+
+@pytest.mark.parametrize(
+    "remote",
+    [
+        "", "/srv/git/pierimpact.git", "../pierimpact", "file:///srv/git/pierimpact",
+        "http://localhost:3000/team/pierimpact", "http://10.0.0.7/team/pierimpact",
+        "git@forge:team/pierimpact.git",
+    ],
+)  # fmt: skip
+def test_a_remote_that_is_not_public_has_no_address(addresses, remote):
+    assert addresses.address(remote) is None
+
+
+def test_built_from_a_clone_it_names_its_remote_and_so_does_its_archive(addresses, tmp_path):
+    if not shutil.which("git"):
+        pytest.skip("needs git: apt install git")
+    hook = addresses.Addresses(str(tmp_path), {})
+    run("git", "init", "-q", tmp_path)
+    hook.update(found := {})
+    assert found == {"urls": {}}
+    run("git", "-C", tmp_path, "remote", "add", "origin", "git@forge.example.org:team/pierimpact")
+    hook.update(found)
+    home = "https://forge.example.org/team/pierimpact"
+    assert found["urls"] == {"Repository": home, "Issues": f"{home}/issues"}
+    shutil.rmtree(tmp_path / ".git")
+    (tmp_path / "PKG-INFO").write_text(f"Name: pierimpact\nProject-URL: Repository, {home}\n")
+    hook.update(found)
+    assert found["urls"]["Repository"] == home
