@@ -10,7 +10,6 @@ import argparse
 import csv
 import os
 import resource
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -55,7 +54,6 @@ def main() -> None:
     parser.add_argument("--rows", type=int, default=100_000)
     parser.add_argument("--share", type=float, default=1e-3)
     options = parser.parse_args()
-    sys.modules["distributed"] = None  # type: ignore[assignment]  # the pool without Dask
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} at the start")
     if options.rows:
         portfolio(options.rows)

@@ -43,13 +43,7 @@ def fail(number: int) -> int:
     raise InputError(f"number must not be {number}")
 
 
-@pytest.fixture
-def no_dask(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "distributed", None)
-
-
-@pytest.mark.usefixtures("no_dask")
-def test_without_dask_processes_of_its_own_do_the_work_in_order(tmp_path: Path) -> None:
+def test_without_a_scheduler_processes_here_do_the_work_in_order(tmp_path: Path) -> None:
     said: list[str] = []
     read: list[int] = []
 
@@ -75,11 +69,11 @@ def test_without_dask_processes_of_its_own_do_the_work_in_order(tmp_path: Path) 
         with pytest.raises(LostWorkersError, match="ended 3 times"):
             list(run(end_always, [1]))
     (line,) = said
-    assert line.startswith("2 processes do the work; with Dask")
+    assert line == "2 processes do the work; --scheduler gives it to a Dask cluster"
 
 
-@pytest.mark.usefixtures("no_dask")
-def test_a_scheduler_needs_dask() -> None:
+def test_a_scheduler_needs_dask(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
     with (
         pytest.raises(InputError, match=r"scheduler tcp://h:1 needs Dask: pip install"),
         worker_pool(scheduler="tcp://h:1"),
@@ -123,7 +117,7 @@ def test_local_processes_end_with_the_one_that_started_them(tmp_path: Path) -> N
     script = tmp_path / "script.py"
     script.write_text(
         "import os, signal, sys\n"
-        "sys.modules['distributed'] = None\n"
+        "sys.modules['distributed'] = None  # it is not needed here\n"
         "from pierimpact.network.workers import worker_pool\n"
         "from test_workers import slow_square\n"
         "if __name__ == '__main__':\n"

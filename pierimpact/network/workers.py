@@ -1,10 +1,9 @@
-"""The processes that share the work, here or on a Dask cluster: results come in order of the tasks.
+"""The processes that share the work, here or on a Dask cluster; results come in order of the tasks.
 
 What comes out does not depend on how many there are, nor on a worker that is lost: its tasks are
 done again by another.
 """
 
-import logging
 import multiprocessing
 import os
 import signal
@@ -13,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from importlib import import_module
 from itertools import islice
 from threading import Thread
 from typing import Any, Protocol, TypeVar
@@ -32,8 +32,8 @@ _UNDER_WAY = 2
 # How often processes may be lost at the same work before it is to blame; Dask's too.
 _MOST_LOSSES = 3
 # What a process finds in its environment. One thread of the linear algebra will do: the processes
-# share the cores. And glibc keeps the memory of arrays for the next ones: to return it, as Dask
-# would have it, takes as long as the collisions.
+# share the cores. And glibc keeps the memory of arrays for the next ones: to return it takes as
+# long as the collisions.
 _ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
@@ -83,9 +83,8 @@ def worker_pool(
 ) -> Iterator[Run]:
     """Give what does tasks side by side, for as long as the context lasts.
 
-    With Dask it is a cluster: that of the scheduler, or a local one. Without Dask it is a pool of
-    processes. A script that calls this must do so below ``if __name__ == "__main__"``, as the
-    processes import it.
+    It is the Dask cluster of a scheduler, or else a pool of processes on this machine. A script
+    that calls this must do so below ``if __name__ == "__main__"``, as these processes import it.
 
     Parameters
     ----------
@@ -94,7 +93,7 @@ def worker_pool(
     scheduler : str, optional
         Address of a Dask scheduler, such as "tcp://10.0.0.1:8786".
     say : callable, optional
-        Called with what a user should know: where the dashboard is, or that there is no Dask.
+        Called with what a user should know: who does the work, or where the dashboard is.
 
     Raises
     ------
@@ -103,22 +102,16 @@ def worker_pool(
         `PATIENCE`, or has no worker; when its workers have another pierimpact or none.
     """
     count = _cores() if workers is None else whole("workers", workers, 1)
-    try:
-        import distributed
-    except ModuleNotFoundError:
-        if scheduler is not None:
-            raise InputError(
-                f"scheduler {scheduler} needs Dask: pip install 'pierimpact[network]'"
-            ) from None
+    if scheduler is None:
         share = "1 process does" if count == 1 else f"{count} processes do"
-        say(f"{share} the work; with Dask (pip install 'pierimpact[network]') a cluster can")
+        say(f"{share} the work; --scheduler gives it to a Dask cluster")
         processes = _LocalProcesses(count)
         try:
             yield processes
         finally:
             processes.close()
         return
-    with _client(distributed, count, scheduler) as client:
+    with _client(scheduler) as client:
         say(f"Dask dashboard: {client.dashboard_link}")
 
         def run(function: Callable[[Task], Result], tasks: Iterable[Task]) -> Iterator[Result]:
@@ -213,24 +206,14 @@ def _end_with_parent() -> None:
 
 
 @contextmanager
-def _client(distributed: Any, count: int, scheduler: str | None) -> Iterator[Any]:
-    """Give the client of a Dask cluster that is ready: of the scheduler's, or of a local one."""
-    if scheduler is None:
-        import dask
-
-        with (
-            dask.config.set({"distributed.nanny.pre-spawn-environ": _ENVIRONMENT}),
-            distributed.LocalCluster(
-                n_workers=count,
-                threads_per_worker=1,
-                host="127.0.0.1",
-                dashboard_address="127.0.0.1:0",
-                silence_logs=logging.ERROR,
-            ) as cluster,
-            distributed.Client(cluster) as client,
-        ):
-            yield client
-        return
+def _client(scheduler: str) -> Iterator[Any]:
+    """Give the client of a Dask cluster that is ready."""
+    try:
+        distributed: Any = import_module("distributed")
+    except ModuleNotFoundError:
+        raise InputError(
+            f"scheduler {scheduler} needs Dask: pip install 'pierimpact[network]'"
+        ) from None
     try:
         client = distributed.Client(scheduler, timeout=PATIENCE)
     except Exception:  # of any kind, where another program answers
