@@ -225,6 +225,6 @@ def _functions(degree: int, xi: Array, length: float) -> tuple[Array, Array]:
     j = np.arange(1, degree)
     inner = (polynomials[:, 2:] - polynomials[:, :-2]) / np.sqrt(4.0 * j + 2.0)
     value = np.column_stack((0.5 * (1.0 - xi), 0.5 * (1.0 + xi), inner))
-    half = np.full_like(xi, 0.5)
+    half = np.full(xi.shape, 0.5)
     slope = np.column_stack((-half, half, polynomials[:, 1:-1] * np.sqrt(j + 0.5)))
     return value, slope * (2.0 / length)

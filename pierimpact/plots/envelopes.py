@@ -106,8 +106,8 @@ def _draw_beam(
     z = np.unique(np.concatenate([z, *(beam.z for beam in beams)]))
     ends = {}
     for side, extreme in (("smallest", np.min), ("largest", np.max)):
-        values = [np.interp(z, beam.z, getattr(beam, f"{side}_{quantity.name}")) for beam in beams]
-        ends[side] = extreme(values, axis=0) / unit
+        of_each = [np.interp(z, beam.z, getattr(beam, f"{side}_{quantity.name}")) for beam in beams]
+        ends[side] = extreme(of_each, axis=0) / unit
     heights = z / size
     axes.fill_betweenx(heights, ends["smallest"], ends["largest"], color=_ENVELOPE, linewidth=0.0)
     labels = []
