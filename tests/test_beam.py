@@ -188,7 +188,7 @@ def test_a_static_force_gives_the_static_member_forces(struck):
 @GENERATED
 @given(arranged_columns().filter(lambda struck: struck[0].steps), st.data())
 def test_struck_all_but_at_a_step_it_is_struck_there(struck, data):
-    """As 4 ft 2 in and 50 in, which round-off tells apart."""
+    """As at 0.9144 m and 3 × 0.3048 m, which round-off tells apart."""
     column = struck[0]
     step = data.draw(st.sampled_from(column.steps)).height
     close = step * (1.0 + data.draw(st.integers(-64, 64)) * np.finfo(float).eps)

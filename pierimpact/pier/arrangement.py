@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from pierimpact.checks import InputError
 
-# Numerical: joints closer than this share of the length are one. Moving one as far changes the
+# Numerical: joints closer than this share of the height are one. Moving one as far changes the
 # column as little as the round-off of so short a part does.
 CLOSE = 1e-8
 
@@ -61,11 +61,11 @@ class Arrangement(NamedTuple):
     def with_joint(self, height: float) -> tuple["Arrangement", int]:
         """Return the same column with a joint at a height [m], and the number of parts below it.
 
-        A joint between two parts that is all but there is moved there: 4 ft 2 in and 50 in differ
+        A joint between two parts that is all but there is moved there: 0.9144 and 3 × 0.3048 differ
         by round-off, and a part that short would leave nothing but round-off of the column.
         """
         joints = [self.parts[0].bottom, *(part.top for part in self.parts)]
-        near = CLOSE * (joints[-1] - joints[0])
+        near = CLOSE * joints[-1]
         joints[1:-1] = [height if abs(joint - height) < near else joint for joint in joints[1:-1]]
         parts = []
         for part, (bottom, top) in zip(self.parts, pairwise(joints), strict=True):
