@@ -197,4 +197,4 @@ def size(unit):
         return 1.0
     found = _unit(unit)
     assert found is not None, unit
-    return found[0]
+    return float(found[0])
