@@ -15,6 +15,7 @@ from word_file import WordFile, name, text_of
 from pierimpact.report.document.blocks import BLOCK_MIME
 from pierimpact.report.exporters import SheetHTMLExporter, parts_of
 from pierimpact.report.word import SheetWordExporter, raised_brackets
+from pierimpact.report.write import convert
 
 
 class Made:
@@ -162,6 +163,13 @@ def test_the_same_bytes_twice(made, monkeypatch):
     monkeypatch.setenv("TZ", "Asia/Tokyo")
     again, _ = SheetWordExporter().from_notebook_node(made.notebook)
     assert again == made.content
+
+
+def test_nothing_of_it_is_elsewhere_while_it_is_written(made, tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "nowhere"))
+    convert(made.notebook, [tmp_path / "sheet.docx"])
+    (file,) = tmp_path.iterdir()
+    assert file.read_bytes() == made.content
 
 
 def test_a_notebook_without_a_title_block_has_a_document_too():

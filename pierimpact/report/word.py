@@ -116,7 +116,7 @@ class SheetWordExporter(SheetHTMLExporter):
         folder = Path(self.extra_template_basedirs[0]) / self.template_name
         entries = dict(sheet["running"]) | dict(sheet["entries"])
         day = datetime.fromisoformat(f"{sheet['date']}T00:00:00").replace(tzinfo=UTC)
-        with tempfile.TemporaryDirectory() as place:
+        with tempfile.TemporaryDirectory(dir=resources.get("temporary_folder")) as place:
             here = Path(place)
             (here / "reference.docx").write_bytes(self._reference(sheet))
             pandoc(

@@ -258,7 +258,9 @@ def convert(
     """Write an executed notebook to files, as what their endings say; return the warnings."""
 
     def write(file: Path) -> list[str]:
-        document, resources = exporter_for(file.suffix).from_notebook_node(notebook)
+        # What it puts there for a while is gone with that folder, even if this process is killed.
+        place = {"temporary_folder": str(file.parent)}
+        document, resources = exporter_for(file.suffix).from_notebook_node(notebook, place)
         file.write_bytes(document.encode() if isinstance(document, str) else document)
         on_stage()
         return list(resources.get("warnings", []))
