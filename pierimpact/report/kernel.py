@@ -9,7 +9,6 @@ the case's folder, from which relative paths start.
 
 import os
 import sys
-import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -22,6 +21,7 @@ from jupyter_client.manager import AsyncKernelManager
 from jupyter_core.utils import run_sync
 from traitlets.config import Config
 
+from pierimpact.files.scratch import ScratchFolder
 from pierimpact.resources import PACKAGE
 
 #: How the names of environment variables begin that would reach Python or its libraries.
@@ -113,10 +113,8 @@ class IsolatedKernelManager(AsyncKernelManager):
         self, *, folders: set[Path], **options: Any
     ) -> None:
         """Start a kernel that takes no module from these folders."""
-        self._private = tempfile.TemporaryDirectory(
-            prefix="pierimpact-kernel-", ignore_cleanup_errors=True
-        )
-        private = Path(self._private.name)
+        self._private = ScratchFolder()
+        private = self._private.path
         self.connection_file = str(private / "connection.json")
         (private / "matplotlibrc").touch()  # the first that is looked for
         code = _START.format(
