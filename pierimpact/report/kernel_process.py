@@ -5,12 +5,14 @@ import logging
 import os
 import shutil
 import time
+from contextlib import suppress
 from importlib import import_module
 from threading import Thread
 from typing import Any
 
 from ipykernel.kernelapp import IPKernelApp
 from IPython import get_ipython
+from zmq import ZMQError
 
 from pierimpact.garbage import collect_seldom
 
@@ -50,7 +52,8 @@ def start(private: str, starter: int) -> None:
     collect_seldom()
     import_module("pierimpact.report.sheet")
     gc.freeze()  # what is imported stays
-    IsolatedKernel.launch_instance()
+    with suppress(ZMQError):  # another process has taken a port meanwhile: another kernel is started
+        IsolatedKernel.launch_instance()
 
 
 def enter(folder: str) -> None:
