@@ -20,15 +20,15 @@ def single(group: T, index: int) -> T:
     return _with_each(lambda item: item[index].item(), group)
 
 
-def replace(group: T, index: int, one: T) -> T:
-    """Return the same with one of floats at an index."""
+def replace(group: T, part: Any, new: T) -> T:
+    """Return the same with others at an index or at many: one of floats, or those of arrays."""
 
     def replaced(item: Any, value: Any) -> Any:
         item = item.copy()
-        item[index] = value
+        item[part] = value
         return item
 
-    return _with_each(replaced, group, one)
+    return _with_each(replaced, group, new)
 
 
 def repeat(group: T, size: int) -> T:

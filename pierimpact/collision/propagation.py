@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.coasting import coast
 from pierimpact.collision.groups import CHUNK, join, replace, select, single
+from pierimpact.collision.pairs import are_pairs, pass_cycles
 from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import LinearMotion, State, linear_motion, start
 from pierimpact.collision.ringing import ring
@@ -25,6 +26,7 @@ STEPS = 200_000  # limit; no collision of the studied domain takes a thousandth 
 TOGETHER = 2_000  # of them side by side; one that takes more goes on alone
 LONGER = 100_000  # as many more where a longer history is asked for
 SHOWN = 10  # indices in a warning
+CYCLES = 8  # steps in one regime from one look for cycles that can be passed over to the next
 PATIENCE, AGAIN = 96, 16  # steps in one regime before it is looked at by itself, and again
 
 Record: TypeAlias = Callable[[State, LinearMotion, float], None]
@@ -192,6 +194,9 @@ def propagate_all(
                 state = _ring(parameters, state, motion, patient)
                 if recorder:
                     recorder.pass_over(column[patient])
+            if recorder is None:  # such steps are not taken down
+                look = are_pairs(motion) & (since % CYCLES == 1) & ~done
+                state = _pass_cycles(parameters, state, motion, np.flatnonzero(look))
             for move in (coast, advance):
                 after, h = move(parameters, state, motion, ARRAYS)
                 if recorder:
@@ -251,3 +256,13 @@ def _ring(
         new, h = ring(single(parameters, i), single(state, i), single(motion, i))
         state = replace(state, i, new) if h else state
     return state
+
+
+def _pass_cycles(
+    parameters: Parameters, state: State, motion: LinearMotion, indices: NDArray[np.int_]
+) -> State:
+    """Return the states once the pairs at some indices have passed the cycles that they can."""
+    if not len(indices):
+        return state
+    new = pass_cycles(select(parameters, indices), select(state, indices), select(motion, indices))
+    return replace(state, indices, new)

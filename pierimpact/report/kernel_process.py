@@ -52,7 +52,7 @@ def start(private: str, starter: int) -> None:
     collect_seldom()
     import_module("pierimpact.report.sheet")
     gc.freeze()  # what is imported stays
-    with suppress(ZMQError):  # another process has taken a port meanwhile: another kernel is started
+    with suppress(ZMQError):  # another process took a port first; another kernel will be started
         IsolatedKernel.launch_instance()
 
 
