@@ -64,7 +64,7 @@ def watched(request):
 def both_ways(request):
     found = Watched(CASES[request.param])
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(propagation, "are_pairs", lambda motion: motion.b < 0.0)
+        patch.setattr(propagation, "are_pairs", lambda state, motion: motion.b < 0.0)
         return found, Watched(CASES[request.param])
 
 
@@ -114,8 +114,8 @@ def test_no_regime_ends_on_the_way(watched):
 
 
 def test_looks_are_at_pairs_only(watched):
-    for _, _, motion, _ in watched.looks:
-        assert are_pairs(motion).all()
+    for _, state, motion, _ in watched.looks:
+        assert are_pairs(state, motion).all()
 
 
 def test_step_by_step_it_is_the_same(both_ways):

@@ -15,8 +15,9 @@ from pierimpact import EquivalentPier, load_truck, peak_reactions
 from pierimpact.checks import InputError
 from pierimpact.design.codes import KIP
 from pierimpact.risk.analysis import Task, risk, strikes_of, weighted_quantiles
-from pierimpact.risk.distributions import Distribution, lognormal
+from pierimpact.risk.distributions import Distribution
 from pierimpact.risk.exceedance import Exceedance, probability
+from pierimpact.risk.laws import Lognormal, Normal, Rayleigh
 from pierimpact.risk.sampling import BLOCK, draw, nearest
 from pierimpact.risk.traffic import (
     ROAD_SPEEDS,
@@ -308,7 +309,7 @@ def test_weighted_quantiles_of_equal_weights_are_order_statistics(values):
 LAWS = {
     "weibull": Distribution(law=stats.weibull_min(2.1, scale=22.0), words="w", status=None),
     "normal": Distribution(law=stats.norm(20.0, 12.0), words="n", status=None, low=3.5, high=60.0),
-    "lognormal": Distribution(law=lognormal(4.0, 1.3), words="l", status=None, high=9.0),
+    "lognormal": Distribution(law=Lognormal.of(4.0, 1.3), words="l", status=None, high=9.0),
     "gamma": Distribution(law=stats.gamma(3.0, loc=2.0), words="g", status=None, low=4.0),
 }
 
@@ -328,11 +329,26 @@ def test_the_mean_is_that_of_many_values(name):
     assert law.mean == pytest.approx(law.exceeded_by(shares).mean(), rel=1e-4)
 
 
-@pytest.mark.parametrize(("mean", "deviation"), [(80.0, 10.0), (4.0, 1.3), (1.0, 3.0)])
-def test_a_lognormal_law_has_its_mean_and_deviation(mean, deviation):
-    law = lognormal(mean, deviation)
-    assert law.mean() == pytest.approx(mean)
-    assert law.std() == pytest.approx(deviation)
+@given(
+    st.sampled_from([Normal, Lognormal.of, Rayleigh.of]), st.floats(0.01, 1e4), st.floats(0.02, 5.0)
+)
+def test_laws_are_those_of_scipy(law, mean, variation):
+    deviation = variation * mean
+    if law == Normal:
+        found, same = law(mean, deviation), stats.norm(mean, deviation)
+    elif law == Rayleigh.of:
+        found, same = law(mean), stats.rayleigh(scale=mean / math.sqrt(0.5 * math.pi))
+    else:
+        mu, sigma = lognormal_parameters(mean, deviation)
+        found, same = law(mean, deviation), stats.lognorm(s=sigma, scale=math.exp(mu))
+        assert (same.mean(), same.std()) == pytest.approx((mean, deviation))
+    shares = np.array([1e-12, 1e-6, 0.01, 0.3, 0.5, 0.8, 0.999])
+    values = same.isf(shares)
+    np.testing.assert_allclose(found.isf(shares), values, rtol=1e-9, atol=1e-12 * deviation)
+    for ends in ([-1.0, 0.0, math.inf], values):
+        ends = np.array(ends)
+        np.testing.assert_allclose(found.cdf(ends), same.cdf(ends), rtol=1e-9, atol=1e-15)
+        np.testing.assert_allclose(found.sf(ends), same.sf(ends), rtol=1e-9, atol=1e-15)
 
 
 def test_what_gives_negative_masses_is_refused_unless_it_is_truncated():

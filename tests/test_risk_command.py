@@ -102,9 +102,16 @@ def test_a_distribution_is_that_of_scipy(text, share):
 @given(st.floats(5.0, 40.0), st.floats(0.5, 10.0), st.sampled_from(["normal", "lognormal"]))
 def test_a_law_by_its_mean_has_it(mean, deviation, law):
     text = f"{law}(mean={mean} t, sd={deviation} t) from 0 t"
-    frozen = parse_distribution("traffic_mass", text, "mass").law
-    assert frozen.mean() == pytest.approx(1e3 * mean)
-    assert frozen.std() == pytest.approx(1e3 * deviation)
+    found = parse_distribution("traffic_mass", text, "mass").law
+    ratio = deviation / mean
+    if law == "normal":
+        same = stats.norm(mean, deviation)
+    else:
+        sigma = math.sqrt(math.log(1.0 + ratio**2))
+        same = stats.lognorm(s=sigma, scale=mean / math.sqrt(1.0 + ratio**2))
+        assert (same.mean(), same.std()) == pytest.approx((mean, deviation))
+    shares = np.linspace(0.01, 0.99, 50)
+    np.testing.assert_allclose(found.isf(shares), 1e3 * same.isf(shares), rtol=1e-9)
 
 
 def test_a_law_is_truncated_where_it_says():
@@ -130,6 +137,8 @@ BAD = {
     "lognorm(s=0.5, scale=18 km/h)": "scale must be a mass",
     "lognorm(s=half, scale=18 t)": "s must be a number, got 'half'",
     "lognorm(s=-1, scale=18 t)": "has parameters that lognorm does not take",
+    "lognormal(mean=18 t, sd=1e-200 t)": "sd must not vanish beside mean",
+    "lognormal(mean=1e-200 t, sd=1e200 t)": "gives impossible values",
     "lognorm(s=1, skale=18 t, scale=1 t)": "'skale' is no parameter of lognorm; did you mean",
     "lognorm(0.5, scale=18 t)": "must name its parameters",
     "lognorm(s=1, s=2, scale=1 t)": "s is given twice",

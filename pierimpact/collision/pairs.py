@@ -60,13 +60,19 @@ class PairMotion(NamedTuple):
         return Position(x[0], v[0], x[1], v[1], x[2], v[2])
 
 
-def are_pairs(motion: LinearMotion) -> Flag:
-    """Say where one spring alone is at work, on a body that a stiff pier forms a pair with."""
+def are_pairs(state: State, motion: LinearMotion) -> Flag:
+    """Say where one spring alone is at work, on a body that a stiff pier forms a pair with.
+
+    And where, as the speed is, neither spring comes to its end in what is worthwhile.
+    """
+    position, time = state.position, WORTHWHILE * longest_step(motion, ARRAYS)
+    lasts = position.d1 + time * position.u1 < state.engine.upper
+    lasts &= position.d2 + time * position.u2 < state.body.upper
     slope1, slope2 = motion.slope1, motion.gamma * motion.slope2
     g = motion.inverse_m1 * slope1 + motion.inverse_m2 * slope2
     square = motion.b + motion.inverse_mp * (slope1 + slope2)
     stiff = (square > GAP**2 * g) & (square > motion.c**2) & (motion.b > 0.0)
-    return stiff & (g > 0.0) & (slope1 * slope2 == 0.0)
+    return lasts & stiff & (g > 0.0) & (slope1 * slope2 == 0.0)
 
 
 def pair_motion(motion: LinearMotion, position: Position) -> PairMotion:

@@ -1,7 +1,8 @@
 """From first touch to the end of a collision, of one or of many side by side.
 
-Each turn coasts as far as it can (`coasting`), then takes a step (`stepping`). A collision that
-stays in one regime for long is looked at by itself (`ringing`).
+Each turn coasts as far as it can (`coasting`), then takes a step (`stepping`). Side by side, those
+with a stiff pier pass over its cycles (`pairs`); a collision that stays in one regime for long is
+looked at by itself (`ringing`).
 """
 
 import math
@@ -195,7 +196,7 @@ def propagate_all(
                 if recorder:
                     recorder.pass_over(column[patient])
             if recorder is None:  # such steps are not taken down
-                look = are_pairs(motion) & (since % CYCLES == 1) & ~done
+                look = are_pairs(state, motion) & (since % CYCLES == 1) & ~done
                 state = _pass_cycles(parameters, state, motion, np.flatnonzero(look))
             for move in (coast, advance):
                 after, h = move(parameters, state, motion, ARRAYS)

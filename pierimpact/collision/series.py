@@ -114,7 +114,7 @@ END = NODES[PARTS]
 CROSSES, ARCHES, DIPS, CRESTS = range(1, 5)
 
 
-def first_suspect(terms: Terms, ops: Ops) -> tuple[Flag, Real, Real]:
+def first_suspect(terms: Terms, ops: Ops) -> tuple[Flag, Real, Real, Real]:
     """Find the first part of the step in which a quantity may rise above zero.
 
     Returns
@@ -127,18 +127,25 @@ def first_suspect(terms: Terms, ops: Ops) -> tuple[Flag, Real, Real]:
         CROSSES: from below to above. The others begin and may end below: ARCHES turns from
         rising to falling with a curvature of one sign; DIPS and CRESTS change their curvature
         from negative to positive and back.
+    guess : Real
+        Where in the part it crosses.
     """
     where, negate, fixed, some = ops.where, ops.negate, ops.fixed, ops.some
     width = 1.0 / PARTS
     rates, bends = terms[1:], terms[2:]
     f1, r1 = fixed(END, terms), fixed(END, rates)
-    part, shape = NEVER + 0.0 * f1, 0.0 * f1
+    part, shape, guess = NEVER + 0.0 * f1, 0.0 * f1, 0.0 * f1
     for number in reversed(range(PARTS)):
         start, end = NODES[number], NODES[number + 1]
         f, r = (fixed(start, terms), fixed(start, rates)) if number else (terms[0], terms[1])
         below, ends_above = f <= 0.0, f1 > 0.0
         suspect = below & ends_above
         part, shape = where(suspect, number * width, part), where(suspect, CROSSES, shape)
+        if some(suspect):
+            crossing = number * width + width * crossing_of(
+                f, f1, r * width, r1 * width, suspect, ops
+            )
+            guess = where(suspect, crossing, guess)
         # A curve that falls at the end, or rises at the start, does so nowhere faster as long
         # as it is bent down there: it can be above zero in between only if its tangent is.
         near = below & (
@@ -155,10 +162,24 @@ def first_suspect(terms: Terms, ops: Ops) -> tuple[Flag, Real, Real]:
             shape = where(arches | dips | crests, bent, shape)
         due = negate(below) & ((r > 0.0) | ends_above)
         f1, r1 = f, r
-    return due, part, shape
+    return due, part, shape, guess
 
 
-def locate(terms: Terms, part: Real, shape: Real, ops: Ops) -> tuple[Real, Flag]:
+def crossing_of(f: Real, f1: Real, r: Real, r1: Real, rises: Flag, ops: Ops) -> Real:
+    """Return about where a quantity crosses zero between 0 and 1, from values and rates there.
+
+    The place as a cubic of the quantity, with these ends; the middle where that leads astray.
+    """
+    where = ops.where
+    regular = rises & (r > 0.0) & (r1 > 0.0)
+    change = where(regular, f1 - f, 1.0)
+    s = -f / change
+    slope, slope1 = change / where(regular, r, 1.0), change / where(regular, r1, 1.0)
+    place = s * s * (3.0 - 2.0 * s) + s * (1.0 - s) * ((1.0 - s) * slope - s * slope1)
+    return where(regular & (place > 0.0) & (place < 1.0), place, 0.5)
+
+
+def locate(terms: Terms, part: Real, shape: Real, guess: Real, ops: Ops) -> tuple[Real, Flag]:
     """Find where a quantity rises above zero in a suspect part.
 
     Returns
@@ -170,8 +191,8 @@ def locate(terms: Terms, part: Real, shape: Real, ops: Ops) -> tuple[Real, Flag]
     """
     where, among, at = ops.where, ops.among, partial(sum_at, ops=ops)
     end = part + 1.0 / PARTS
-    high, happens = end, shape == CROSSES
-    turning = ops.negate(happens)
+    crosses = happens = shape == CROSSES
+    high, turning = end, ops.negate(happens)
     if ops.some(turning):
         rates, bends, nothing = terms[1:], terms[2:], 0.0 * end
         dips, crests = shape == DIPS, shape == CRESTS
@@ -186,7 +207,7 @@ def locate(terms: Terms, part: Real, shape: Real, ops: Ops) -> tuple[Real, Flag]
         over = among(turning, nothing, at, terms, top) > 0.0
         high = where(over, top, end)
         happens = happens | over | ends_above
-    theta = rise(terms, 1.0, where(happens, part, high), high, ops)
+    theta = rise(terms, 1.0, where(happens, part, high), high, ops, where(crosses, guess, NEVER))
     return theta, happens
 
 
@@ -195,14 +216,15 @@ def sum_at(terms: Terms, theta: Real, ops: Ops) -> Real:
     return ops.dot(ops.weights(theta, len(terms)), terms)
 
 
-def rise(terms: Terms, sign: Real, low: Real, high: Real, ops: Ops) -> Real:
+def rise(terms: Terms, sign: Real, low: Real, high: Real, ops: Ops, guess: Real = NEVER) -> Real:
     """Return where sign × the sum rises through zero between `low` and `high`.
 
-    Halley's method, with bisection where it would leave the bracket; `high` where the bracket
-    is empty.
+    Halley's method from a guess or the middle, with bisection where it would leave the bracket;
+    `high` where the bracket is empty.
     """
     closer = partial(_closer, ops=ops, left=60)  # numerical
-    return ops.among(low < high, high, closer, terms, sign, 0.5 * (low + high), low, high)
+    start = ops.where(guess < high, guess, 0.5 * (low + high))
+    return ops.among(low < high, high, closer, terms, sign, start, low, high)
 
 
 def _closer(
@@ -239,11 +261,11 @@ def rises_of_one(flagged: list[tuple[EventFunction, Flag]], series: Sequence[Ter
         ]
         terms = list(map(sum, zip(*weighted, strict=True)) if len(parts) > 1 else weighted[0])
         terms[0] = _at_start(terms[0] + level, terms[1], FLOATS)
-        due, part, shape = first_suspect(terms, FLOATS)
+        due, part, shape, guess = first_suspect(terms, FLOATS)
         if due:
             found.append((event, 0.0, True))
         elif part < NEVER:
-            found.append((event, *locate(terms, part, shape, FLOATS)))
+            found.append((event, *locate(terms, part, shape, guess, FLOATS)))
     return found
 
 
@@ -257,12 +279,12 @@ def rises_of_all(flagged: list[tuple[EventFunction, Flag]], series: Sequence[Ter
     terms = np.concatenate(
         [_gather(function, indices, series) for function, indices in groups], axis=1
     )
-    due, part, shape = first_suspect(terms, ARRAYS)
+    due, part, shape, guess = first_suspect(terms, ARRAYS)
     theta, happens = np.where(due, 0.0, NEVER), due
     suspect = np.flatnonzero((part < NEVER) & ~due)
     if len(suspect):
         theta[suspect], happens[suspect] = locate(
-            terms.take(suspect, axis=1), part[suspect], shape[suspect], ARRAYS
+            terms.take(suspect, axis=1), part[suspect], shape[suspect], guess[suspect], ARRAYS
         )
     found: list[Rise] = []
     first, size = 0, len(flagged[0][1])

@@ -76,14 +76,14 @@ def expand(motion: LinearMotion, initial: Sequence[Rates], h: Real, count: int, 
         terms[0], terms[1], terms[2] = value, rate * h, second * square
     # The equations of motion once more, with the step as the unit of time.
     slope1, slope2, gamma = motion.slope1, motion.slope2, motion.gamma
-    g1, g2 = motion.inverse_m1 * slope1 * square, motion.inverse_m2 * slope2 * square
+    g1, g2 = -motion.inverse_m1 * slope1 * square, -motion.inverse_m2 * slope2 * square
     p1, p2 = motion.inverse_mp * slope1 * square, motion.inverse_mp * gamma * slope2 * square
     b, c = motion.b * square, motion.c * h
     for n in range(1, count - 2):
         pier = p1 * d1[n] + p2 * d2[n] - b * xp[n] - c * xp[n + 1]
         xp[n + 2] = pier
-        d1[n + 2] = -g1 * d1[n] - pier
-        d2[n + 2] = -g2 * d2[n] - gamma * pier
+        d1[n + 2] = g1 * d1[n] - pier
+        d2[n + 2] = g2 * d2[n] - gamma * pier
     return d1, d2, xp
 
 

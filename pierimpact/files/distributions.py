@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from pierimpact.checks import InputError, brief, did_you_mean, number
-from pierimpact.risk.distributions import Distribution, lognormal
+from pierimpact.risk.distributions import Distribution
+from pierimpact.risk.laws import Lognormal, Normal
 from pierimpact.units import parse
 
 _LAW = re.compile(
@@ -52,12 +53,9 @@ def parse_distribution(
     low, high = (
         None if end is None else parse(name, end, dimension) for end in (match[3], match[4])
     )
-    frozen = (_by_mean if law in _BY_MEAN else _of_scipy)(name, law, given, dimension)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of SciPy, about what is refused below
-        mean = float(frozen.mean())
-        if any(math.isnan(float(frozen.cdf(x))) for x in (0.0, 1.0)) or math.isnan(mean):
-            raise InputError(f"{name} has parameters that {law} does not take, got {brief(text)}")
+        frozen = (_by_mean if law in _BY_MEAN else _of_scipy)(name, law, given, dimension)
         try:
             return Distribution(
                 law=frozen,
@@ -85,13 +83,16 @@ def _parameters(name: str, text: str) -> dict[str, str]:
 
 
 def _by_mean(name: str, law: str, given: Mapping[str, str], dimension: str) -> Any:
-    from scipy import stats
-
     _refuse_others(name, law, given, ("mean", "sd"), ())
     mean, deviation = (parse(f"{name}: {key}", given[key], dimension) for key in ("mean", "sd"))
     if not deviation > 0.0 or (law == "lognormal" and not mean > 0.0):
         raise InputError(f"{name}: mean and sd must be positive, got {brief(dict(given))}")
-    return lognormal(mean, deviation) if law == "lognormal" else stats.norm(mean, deviation)
+    if law == "normal":
+        return Normal(mean, deviation)
+    found = Lognormal.of(mean, deviation)
+    if not found.logarithm.deviation > 0.0:
+        raise InputError(f"{name}: sd must not vanish beside mean, got {brief(dict(given))}")
+    return found
 
 
 def _of_scipy(name: str, law: str, given: Mapping[str, str], dimension: str) -> Any:
@@ -116,7 +117,12 @@ def _of_scipy(name: str, law: str, given: Mapping[str, str], dimension: str) -> 
     }
     if not values["scale"] > 0.0:
         raise InputError(f"{name}: scale must be positive, got {brief(given['scale'])}")
-    return found(**values)
+    frozen = found(**values)
+    if any(math.isnan(float(x)) for x in (frozen.mean(), frozen.cdf(0.0), frozen.cdf(1.0))):
+        raise InputError(
+            f"{name} has parameters that {law} does not take, got {brief(dict(given))}"
+        )
+    return frozen
 
 
 def _refuse_others(

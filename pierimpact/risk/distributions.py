@@ -6,13 +6,14 @@ Values are drawn by the share of all that is larger, which keeps its figures in 
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError
+from pierimpact.risk.laws import Law
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -27,8 +28,8 @@ class Distribution:
 
     Parameters
     ----------
-    law : object
-        Frozen continuous distribution of `scipy.stats`, in SI units.
+    law : Law
+        Frozen continuous distribution of `scipy.stats`, or one of `risk.laws`, in SI units.
     words : str
         How it prints.
     status : Certainty or None
@@ -44,7 +45,7 @@ class Distribution:
         When the law gives values beyond the bounds and is not truncated, or hardly any within.
     """
 
-    law: Any
+    law: Law
     words: str
     status: Certainty | None
     low: float = -math.inf
@@ -96,11 +97,3 @@ class Distribution:
         angle = 0.25 * math.pi * (nodes + 1.0)
         shares = np.sin(angle) ** 2
         return float(weights @ (self.exceeded_by(shares) * np.sin(2.0 * angle)) * 0.25 * math.pi)
-
-
-def lognormal(mean: float, deviation: float) -> Any:
-    """Return the lognormal law of a mean and a standard deviation, derived here [SI]."""
-    from scipy import stats
-
-    variance = math.log1p((deviation / mean) ** 2)
-    return stats.lognorm(s=math.sqrt(variance), scale=mean * math.exp(-0.5 * variance))

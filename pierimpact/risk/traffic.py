@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError, not_negative, one_of, positive
 from pierimpact.design.codes import JCSS_STIFFNESS
-from pierimpact.risk.distributions import Distribution, lognormal
+from pierimpact.risk.distributions import Distribution
+from pierimpact.risk.laws import Lognormal, Normal, Rayleigh
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -41,7 +42,7 @@ def jcss_speed(road: str = "motorway") -> Distribution:
     """Return the speeds on a road of a class of JCSS, one of ROAD_SPEEDS."""
     mean, deviation = ROAD_SPEEDS[one_of("traffic_speed", road, tuple(ROAD_SPEEDS))]
     return Distribution(
-        law=lognormal(mean / 3.6, deviation / 3.6),
+        law=Lognormal.of(mean / 3.6, deviation / 3.6),
         words=f"JCSS, {road}: lognormal, {mean:g} ± {deviation:g} km/h",
         status=Certainty.READ,
     )
@@ -50,10 +51,8 @@ def jcss_speed(road: str = "motorway") -> Distribution:
 @cache
 def jcss_mass() -> Distribution:
     """Return the masses of trucks of JCSS, as read there: normal, 20 ± 12 t; here from 3.5 t on."""
-    from scipy import stats
-
     return Distribution(
-        law=stats.norm(20e3, 12e3),
+        law=Normal(20e3, 12e3),
         words="JCSS, trucks: normal, 20 ± 12 t, here truncated to 3.5 t and more",
         status=Certainty.READ,
         low=LEAST_TRUCK,
@@ -64,26 +63,21 @@ def jcss_mass() -> Distribution:
 def jcss_deceleration() -> Distribution:
     """Return the decelerations off the road of JCSS, as read there: lognormal, 4 ± 1.3 m/s²."""
     words = "JCSS: lognormal, 4 ± 1.3 m/s²"
-    return Distribution(law=lognormal(4.0, 1.3), words=words, status=Certainty.READ)
+    return Distribution(law=Lognormal.of(4.0, 1.3), words=words, status=Certainty.READ)
 
 
 @cache
 def jcss_angle() -> Distribution:
     """Return the angles between course and road of JCSS, as read there: Rayleigh, mean 10°."""
-    from scipy import stats
-
-    scale = math.radians(10.0) / math.sqrt(0.5 * math.pi)
-    words = "JCSS: Rayleigh, mean 10°"
-    return Distribution(
-        law=stats.rayleigh(scale=scale), words=words, status=Certainty.READ, bounds=ANGLES
-    )
+    law, words = Rayleigh.of(math.radians(10.0)), "JCSS: Rayleigh, mean 10°"
+    return Distribution(law=law, words=words, status=Certainty.READ, bounds=ANGLES)
 
 
 @cache
 def jcss_stiffness() -> Distribution:
     """Return the stiffnesses of vehicles of JCSS, as read there: lognormal, 300 ± 60 kN/m."""
     words = "JCSS: lognormal, 300 ± 60 kN/m"
-    return Distribution(law=lognormal(JCSS_STIFFNESS, 60e3), words=words, status=Certainty.READ)
+    return Distribution(law=Lognormal.of(JCSS_STIFFNESS, 60e3), words=words, status=Certainty.READ)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
