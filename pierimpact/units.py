@@ -414,4 +414,12 @@ def rounded(value: float, digits: int) -> str:
     return text.replace(",", "" if exponent < 4 else "\u202f")
 
 
+def compared(ratio: float) -> str:
+    """Return a ratio to three figures, or to as many as show on which side of one it is."""
+    digits = 3
+    while digits < 16 and ratio != 1.0 and float(f"{ratio:.{digits - 1}e}") == 1.0:
+        digits += 1
+    return rounded(ratio, digits)
+
+
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -11,6 +11,7 @@ from pierimpact.units import (
     DIMENSIONS,
     QUANTITIES,
     SYSTEMS,
+    compared,
     converted,
     parse,
     printed,
@@ -362,3 +363,21 @@ def test_mass_and_force_are_kept_apart():
     assert printed(POUND, "mass", "US").unit == "lb"
     assert printed(1e3 * POUND_FORCE, "force", "US") == ("1.000", "kip")
     assert printed(1e3 * POUND_FORCE, "force", "US", given=True) == ("1", "kip")
+
+
+@given(st.one_of(st.floats(0.3, 3.0), st.floats(-1e-6, 1e-6).map(lambda x: 1.0 + x)))
+def test_a_compared_ratio_shows_on_which_side_of_one_it_is(ratio):
+    shown = float(compared(ratio))
+    assert shown == pytest.approx(ratio, rel=5.1e-3)
+    # The fifteen figures that any number can be printed to and read again.
+    if abs(ratio - 1.0) > 1e-14:
+        assert (shown > 1.0, shown < 1.0) == (ratio > 1.0, ratio < 1.0)
+    if abs(ratio - 1.0) > 0.01:
+        assert compared(ratio) == rounded(ratio, 3)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "text"), [(1.0, "1.00"), (1.003, "1.003"), (0.99996, "0.99996"), (1.45, "1.45")]
+)
+def test_compared(ratio, text):
+    assert compared(ratio) == text

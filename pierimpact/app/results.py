@@ -6,7 +6,7 @@ from pierimpact.plots.situation import draw_situation
 from pierimpact.report.calculation import Calculation
 from pierimpact.report.outcome import first_results, statement, upper_utilisations, verdict
 from pierimpact.report.warnings import warnings_of
-from pierimpact.units import printed, rounded, stated
+from pierimpact.units import compared, printed, stated
 
 
 def shown(calculation: Calculation) -> dict[str, Any]:
@@ -34,9 +34,9 @@ def shown(calculation: Calculation) -> dict[str, Any]:
         "utilisations": [
             [
                 name,
-                rounded(ratio, 3),
+                compared(ratio),
                 verdict(ratio, upper.get(name))
-                + (f"; {rounded(upper[name], 3)} at the upper end of the band" if upper else ""),
+                + (f"; {compared(upper[name])} at the upper end of the band" if upper else ""),
                 ratio,
             ]
             for name, ratio in ratios.items()

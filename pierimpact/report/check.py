@@ -9,7 +9,7 @@ from pierimpact.report.calculation import Calculation
 from pierimpact.report.outcome import first_results, statement, upper_utilisations, verdict
 from pierimpact.report.results import Results
 from pierimpact.report.warnings import warnings_of
-from pierimpact.units import rounded
+from pierimpact.units import compared
 
 _LABEL, _VALUE = 22, 18  # columns of the table [characters]
 
@@ -47,8 +47,8 @@ def _utilisations(calculation: Calculation) -> Iterator[tuple[str, str, str]]:
         at_upper = upper.get(name)
         remark = verdict(ratio, at_upper)
         if at_upper is not None:
-            remark += f"; {rounded(at_upper, 3)} at the upper end of the band"
-        yield f"Utilisation in {name}", rounded(ratio, 3), remark
+            remark += f"; {compared(at_upper)} at the upper end of the band"
+        yield f"Utilisation in {name}", compared(ratio), remark
 
 
 def check_json(name: str, calculation: Calculation) -> str:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from pierimpact.design.codes import aashto_lrfd
 from pierimpact.report.calculation import AVERAGE, Calculation
 from pierimpact.symbols import BY_KEY
-from pierimpact.units import Printed, printed, rounded, stated, unit_of
+from pierimpact.units import Printed, compared, printed, rounded, stated, unit_of
 
 #: The member forces that are checked, and what kind of quantity they are.
 DEMANDS = {"shear": "force", "moment": "moment"}
@@ -124,4 +124,4 @@ def _largest(calculation: Calculation) -> list[Printed]:
 
 def _listed(ratios: dict[str, float]) -> str:
     """Return utilisations as "0.71 in shear and 0.86 in moment"."""
-    return " and ".join(f"{rounded(ratio, 3)} in {name}" for name, ratio in ratios.items())
+    return " and ".join(f"{compared(ratio)} in {name}" for name, ratio in ratios.items())

@@ -12,7 +12,7 @@ from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table, columns, wide
 from pierimpact.report.results import Results
 from pierimpact.symbols import BY_KEY
-from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
+from pierimpact.units import Printed, compared, printed, rounded, unit_of, unit_size
 
 UNKNOWN = "—"  # instead of what a case does not give
 EXCEEDED = "exceeded"
@@ -54,7 +54,7 @@ class _Column(NamedTuple):
         if isinstance(value, tuple):  # the ends of a range
             return "–".join(rounded(end / unit_size(self.quantity, system), 3) for end in value)
         if self.quantity == "ratio":
-            return rounded(value, 3)
+            return compared(value)
         if not self.quantity:
             return str(value)
         return printed(value, self.quantity, system, given=self.given).number

@@ -8,7 +8,7 @@ from pierimpact.files.plausible import unusual
 from pierimpact.pier.static_forces import TOO_LOW
 from pierimpact.report.calculation import Calculation
 from pierimpact.symbols import BY_KEY, SYMBOLS
-from pierimpact.units import Printed, printed, rounded, stated, unit_size
+from pierimpact.units import Printed, compared, printed, rounded, stated, unit_size
 from pierimpact.vehicle.truck import another_truck
 
 
@@ -31,7 +31,7 @@ def warnings_of(calculation: Calculation) -> list[str]:
 def _exceeded(calculation: Calculation) -> Iterator[str]:
     for name, ratio in calculation.utilisations.items():
         if ratio > 1.0:
-            yield f"The {name} is {rounded(ratio, 3)} times the resistance."
+            yield f"The {name} is {compared(ratio)} times the resistance."
 
 
 def _too_low(calculation: Calculation) -> Iterator[str]:

@@ -1,13 +1,13 @@
 """The laws of JCSS, with the methods of those of `scipy.stats` that are used here.
 
-`scipy.stats` takes a second to import, in each process that draws trucks; these do without it.
+`scipy.stats` takes a second to import, in each process that draws trucks; these do without it, and
+take `scipy.special` only once they are asked.
 """
 
 import math
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from scipy.special import ndtr, ndtri
 
 _LEAST = float(np.finfo(float).tiny)  # stands for what is not above zero, in a logarithm
 
@@ -33,15 +33,24 @@ class Normal(NamedTuple):
 
     def cdf(self, value: Any) -> Any:
         """As in `Law`."""
-        return ndtr((value - self.mean) / self.deviation)
+        return _below((value - self.mean) / self.deviation)
 
     def sf(self, value: Any) -> Any:
         """As in `Law`."""
-        return ndtr((self.mean - value) / self.deviation)
+        return _below((self.mean - value) / self.deviation)
 
     def isf(self, share: Any) -> Any:
         """As in `Law`."""
+        from scipy.special import ndtri
+
         return self.mean - self.deviation * ndtri(share)
+
+
+def _below(value: Any) -> Any:
+    """Return the share of the standard normal law below these values."""
+    from scipy.special import ndtr
+
+    return ndtr(value)
 
 
 class Lognormal(NamedTuple):

@@ -22,7 +22,7 @@ from pierimpact.report.outcome import (
 )
 from pierimpact.report.sheet.section import Section
 from pierimpact.report.warnings import warnings_of
-from pierimpact.units import rounded
+from pierimpact.units import compared
 
 # As many as a reader takes in; the others stand with the limits: this project's choice.
 _FIRST_WARNINGS = 4
@@ -107,8 +107,8 @@ class FirstPage(Section):
                 [
                     *cells,
                     self.number(resistance, quantity, given=True),
-                    rounded(ratio, 3),
-                    "" if at_upper is None else rounded(at_upper, 3),
+                    compared(ratio),
+                    "" if at_upper is None else compared(at_upper),
                     verdict(ratio, at_upper),
                 ]
             )
