@@ -39,11 +39,13 @@ def locked(folder: Path) -> Iterator[None]:
 @contextmanager
 def held(file: Path) -> Iterator[None]:
     """Hold a new file, so that others can see by `is_held` that its owner lives."""
-    begun = file if sys.platform == "win32" else file.with_name(f"{file.name}.part")
+    at_once = sys.platform == "win32"  # where it is held by being open
+    begun = file if at_once else file.with_name(f"{file.name}.part")
     place = os.open(begun, os.O_RDWR | os.O_CREAT)
     try:
-        _lock(place)
-        begun.rename(file)  # nobody sees it before it is held
+        if not at_once:
+            _lock(place)
+            begun.rename(file)  # nobody sees it before it is held
         yield
     finally:
         os.close(place)
