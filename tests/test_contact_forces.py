@@ -42,7 +42,8 @@ def collisions():
 
 def test_they_are_those_of_the_histories(collisions):
     peaks, forces = contact_forces(*collisions, WINDOW)
-    assert np.array_equal(peaks.governing, peak_reactions(*collisions).governing)
+    # `peak_reactions` passes over cycles whose forces are wanted here: the same but for round-off.
+    np.testing.assert_allclose(peaks.governing, peak_reactions(*collisions).governing, rtol=1e-12)
     for i, (truck, mass, stiffness, ratio, speed) in enumerate(zip(*collisions, strict=True)):
         pier = EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=ratio)
         history = simulate(truck, pier, speed)
