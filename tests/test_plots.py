@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from matplotlib import get_data_path
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
+from matplotlib.font_manager import fontManager
 from matplotlib.patches import Polygon
 
 from pierimpact import (
@@ -26,7 +28,7 @@ from pierimpact.plots import (
     figures,
     section,
 )
-from pierimpact.plots.style import ORANGE, SKY
+from pierimpact.plots.style import ORANGE, SKY, complete_fonts
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.units import printed, unit_size
 
@@ -118,3 +120,14 @@ def test_a_band_without_width_or_cargo(monkeypatch):
     strips, tornado = band.draw_band(found, "SI").axes
     assert words(strips) == ["no contact"]
     assert words(tornado) == ["All parameters are known exactly."]
+
+
+def test_fonts_that_a_cache_lacks_are_those_of_matplotlib(monkeypatch):
+    names = {font.name for font in fontManager.ttflist}
+    others = [font for font in fontManager.ttflist if get_data_path() not in font.fname]
+    monkeypatch.setattr(fontManager, "ttflist", others)
+    complete_fonts()
+    assert {font.name for font in fontManager.ttflist} == names
+    count = len(fontManager.ttflist)
+    complete_fonts()
+    assert len(fontManager.ttflist) == count

@@ -5,11 +5,13 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from pathlib import Path
 from typing import Any
 
-from matplotlib import rc_context
+from matplotlib import get_data_path, rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.font_manager import fontManager
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -40,6 +42,19 @@ _SHEET: Any = {
     "svg.fonttype": "path",
     "svg.hashsalt": "pierimpact",  # the same drawing gives the same bytes
 }
+
+
+def complete_fonts() -> None:
+    """Add the fonts that come with matplotlib where its cache, in the user's home, lacks them.
+
+    That happens where the cache was written while an environment was being removed.
+    """
+    if _SHEET["font.family"] not in {font.name for font in fontManager.ttflist}:
+        for path in Path(get_data_path(), "fonts", "ttf").glob("*.ttf"):
+            fontManager.addfont(path)
+
+
+complete_fonts()
 
 # Of figures that are printed at their natural size.
 _PAGE: Any = {
