@@ -30,8 +30,8 @@ from pierimpact.collision.stepping import PIER, event_functions, longest_step
 # Numerical settings.
 GAP = 8.0  # least ratio of the pier's frequency to that of the body on its spring
 REFINED = 5  # steps of Newton's method to a mode, which at that ratio starts within some per cent
-NODES, SPAN = 24, 3.0  # of the grid, and how far the slow mode turns over it at least [rad]
-WORTHWHILE = 3.0  # ordinary steps that a long one must replace
+NODES, SPAN = 32, 2.5  # of the grid, and how far the slow mode turns over it at least [rad]
+WORTHWHILE = 2.0  # ordinary steps that a long one must replace
 PASSES = 20  # an event here: a quantity passes a value
 
 

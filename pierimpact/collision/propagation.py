@@ -27,7 +27,7 @@ STEPS = 200_000  # limit; no collision of the studied domain takes a thousandth 
 TOGETHER = 2_000  # of them side by side; one that takes more goes on alone
 LONGER = 100_000  # as many more where a longer history is asked for
 SHOWN = 10  # indices in a warning
-CYCLES = 8  # steps in one regime from one look for cycles that can be passed over to the next
+CYCLES = 2  # steps in one regime from one look for cycles to pass over to the next
 PATIENCE, AGAIN = 96, 16  # steps in one regime before it is looked at by itself, and again
 
 Record: TypeAlias = Callable[[State, LinearMotion, float], None]
