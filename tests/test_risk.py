@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
@@ -298,6 +298,7 @@ def test_the_trucks_that_a_pier_fears_are_heavier_and_faster_than_those_that_str
     assert found.feared(1e12) is None
 
 
+@example([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
 @given(st.lists(st.floats(1.0, 9.0), min_size=1, max_size=30))
 def test_weighted_quantiles_of_equal_weights_are_order_statistics(values):
     own = np.sort(np.array(values))
