@@ -26,7 +26,7 @@ class Watched:
     """Results of cases, and the steps and what was looked at on the way."""
 
     def __init__(self, cases):
-        self.looks, self.steps = [], 0
+        self.cases, self.looks, self.steps = cases, [], 0
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(propagation, "pass_cycles", self.pass_cycles)
             patch.setattr(propagation, "advance", self.advance)
@@ -60,12 +60,11 @@ def watched(request):
     return Watched(CASES[request.param])
 
 
-@pytest.fixture(scope="module", params=CASES)
-def both_ways(request):
-    found = Watched(CASES[request.param])
+@pytest.fixture(scope="module")
+def both_ways(watched):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(propagation, "are_pairs", lambda state, motion: motion.b < 0.0)
-        return found, Watched(CASES[request.param])
+        return watched, Watched(watched.cases)
 
 
 def matrix_of(motion, index):

@@ -25,14 +25,13 @@ import numpy as np
 from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.regimes import LinearMotion, Position, State, raise_peak
 from pierimpact.collision.series import ARRAYS, EventFunction, Flag, Real
-from pierimpact.collision.stepping import PIER, event_functions, longest_step
+from pierimpact.collision.stepping import PASSES, PIER, event_functions, longest_step
 
 # Numerical settings.
 GAP = 8.0  # least ratio of the pier's frequency to that of the body on its spring
 REFINED = 5  # steps of Newton's method to a mode, which at that ratio starts within some per cent
 NODES, SPAN = 32, 2.5  # of the grid, and how far the slow mode turns over it at least [rad]
 WORTHWHILE = 2.0  # ordinary steps that a long one must replace
-PASSES = 20  # an event here: a quantity passes a value
 
 
 class Mode(NamedTuple):

@@ -20,6 +20,7 @@ from pierimpact.collision.regimes import LinearMotion, Position, State, accelera
 from pierimpact.collision.series import FLOATS, PHASE, TERMS, EventFunction, weights_of_one
 from pierimpact.collision.stepping import (
     INACTIVE,
+    PASSES,
     PIER,
     Rates,
     event_functions,
@@ -36,7 +37,6 @@ CONDITION = 1e10  # of the fast eigenvectors, beyond which the parts are not tol
 WORTHWHILE = 8.0  # ordinary steps that a long one must replace
 LONGEST = 1e7  # such steps that a long one may replace
 SAFETY = 0.999  # share of the time to the earliest change
-PASSES = 20  # an event here: a quantity passes a value
 
 
 class Parts(NamedTuple):

@@ -50,6 +50,7 @@ from pierimpact.collision.yielding import (
 
 ENGINE, BODY, PIER = range(3)  # order of δ1, δ2 and x_p in a series
 PIER_EXTREME = 8  # of its displacement: an event, but not a change of regime
+PASSES = 20  # a quantity passes a value: no change of regime either
 
 # Numerical settings.
 LATE = 10.0  # swings of the pier after which a body at rest is looked at more closely
