@@ -151,6 +151,25 @@ def test_numbers_go_on_from_block_to_block():
 @pytest.mark.skipif(
     shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
 )
+@pytest.mark.parametrize("exporter", [SheetHTMLExporter, SheetPDFExporter, SheetWordExporter])
+def test_a_document_is_the_same_whatever_was_written_before_it(exporter):
+    def notebook(*formulas, prose):
+        steps = [
+            Equation(label=f"eq-{i}", name=Tex(formula), symbol="x", lines=[formula])
+            for i, formula in enumerate(formulas)
+        ]
+        blocks = notebook_of([Steps(steps), Paragraph(Tex(formulas[0]))])
+        blocks.cells.append(v4.new_markdown_cell(prose))
+        return blocks
+
+    first = notebook("a", r"\frac{a}{b}", "c^2", prose="# One\n\n$a$")
+    second = notebook("c^2", "d", "d", prose="$a$")
+    third = notebook("a", "d", prose="# Two\n\nwords[^1]\n\n[^1]: a note")
+    used = exporter()
+    for each in (first, second, third, first):
+        assert used.from_notebook_node(each)[0] == exporter().from_notebook_node(each)[0]
+
+
 def test_dots_stand_over_their_letters(tmp_path):
     """In Chromium, whose fonts are DejaVu's where no others are: a mark for each dot, above."""
     formulas = ("x", r"\dot x", r"\ddot x", r"\ddot m", r"\hat F")

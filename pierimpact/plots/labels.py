@@ -5,13 +5,13 @@ and pale areas; of these places it takes the one nearest to its point, with a th
 that is not near. What it covers is taken for the labels that come after it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
@@ -39,9 +39,10 @@ class Label(NamedTuple):
 def place(figure: Figure, labels: Sequence[Label]) -> None:
     """Write labels where nothing else is, the first of them first."""
     figure.set_dpi(72.0 * _FINE)
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()  # type: ignore[no-untyped-call]
-    pixels = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
+    canvas: Any = figure.canvas
+    with _without_axis(figure):
+        canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())
     pixels = pixels[::-1, :, :3]  # from below, as coordinates are
     ink = pixels @ np.array([0.299, 0.587, 0.114]) < _PALE  # by their luminance
     rows, columns = (count // _FINE for count in ink.shape)
@@ -52,60 +53,87 @@ def place(figure: Figure, labels: Sequence[Label]) -> None:
         _write(label, taken)
 
 
+@contextmanager
+def _without_axis(figure: Figure) -> Iterator[None]:
+    """Hide numbers, ticks and names of axes: they stand beside these, where no label comes."""
+    shown = [
+        axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis) if axis.get_visible()
+    ]
+    for axis in shown:
+        axis.set_visible(False)
+    yield
+    for axis in shown:
+        axis.set_visible(True)
+
+
 def _write(label: Label, taken: NDArray[np.int_]) -> None:
     """Write one label, and note what it and its line cover."""
     axes, points = label.axes, np.atleast_2d(np.asarray(label.points, dtype=float))
     text = axes.text(points[0, 0], points[0, 1], label.words, **label.options)
     extent = text.get_window_extent()
     text.remove()
-    size, pad = np.array([extent.width, extent.height]), _PAD
-    corners = pad + _places(taken > 0, np.ceil(size + 2.0 * pad).astype(int), axes)
-    ends = np.clip(axes.transData.transform(points), 0.0, np.array(taken.T.shape) - 1.0)
-    nearest = np.clip(ends[:, None], corners, corners + size)
-    gap = np.hypot(*np.moveaxis(ends[:, None] - nearest, -1, 0))
-    wanted = ends + 0.5 * size * np.array(label.toward)
-    aside = np.hypot(*np.moveaxis(corners + 0.5 * size - wanted[:, None], -1, 0))
-    which = np.argmin(gap + _SIDE * aside, axis=0)
-    own = which, np.arange(len(corners))
-    gap, aside, nearest, end = gap[own], aside[own], nearest[own], ends[which]
-    cost = gap + _SIDE * aside
-    order = np.argsort(cost, kind="stable")
-    tried = np.concatenate((order[:_TRIED], order[:: len(order) // _TRIED + 1]))
-    far = gap > _NEAR
-    crossed = taken[_line(nearest[tried], end[tried])].sum(axis=0)
-    best = tried[np.argmin(cost[tried] + np.where(far[tried], crossed, 0))]
+    size = np.array([[extent.width], [extent.height]])
+    corners = _PAD + _places(taken > 0, np.ceil(size[:, 0] + 2.0 * _PAD).astype(int), axes)
+    limits = np.array([taken.shape[::-1]]) - 1.0
+    ends = np.clip(axes.transData.transform(points), 0.0, limits).T[..., None]
+    wanted = ends + 0.5 * size[:, None] * np.reshape(label.toward, (2, 1, 1))
+    nearest = np.clip(ends, corners[:, None], (corners + size)[:, None])
+    gaps = _length(ends - nearest)
+    costs = gaps + _SIDE * _length((corners + 0.5 * size)[:, None] - wanted)
+    which = np.argmin(costs, axis=0)
+    own = which, np.arange(which.size)
+    gap, cost = gaps[own], costs[own]
+    best = np.argmin(cost)
+    if gap[best] > _NEAR:
+        order = np.argsort(cost, kind="stable")
+        tried = np.concatenate((order[:_TRIED], order[:: len(order) // _TRIED + 1]))
+        crossed = taken[_line(nearest[:, which[tried], tried], ends[:, which[tried], 0])].sum(
+            axis=0
+        )
+        best = tried[np.argmin(cost[tried] + np.where(gap[tried] > _NEAR, crossed, 0))]
+    corner, near, end = corners[:, best], nearest[:, which[best], best], ends[:, which[best], 0]
     line: dict[str, Any] = {}
-    if far[best]:
+    if gap[best] > _NEAR:
         style = {"arrowstyle": "-", "color": INK, "linewidth": 0.5, "shrinkA": 0.5, "shrinkB": 2.0}
-        line["arrowprops"] = style | {"relpos": tuple((nearest[best] - corners[best]) / size)}
-        taken[_line(nearest[best], end[best])] = _LINE
+        line["arrowprops"] = style | {"relpos": tuple((near - corner) / size[:, 0])}
+        taken[_line(near, end)] = _LINE
     axes.annotate(
         label.words,
         tuple(points[which[best]]),
-        tuple(corners[best] - end[best]),
+        tuple(corner - end),
         textcoords="offset points",
         annotation_clip=False,
         **{"ha": "left", "va": "bottom", **line, **label.options},
     )
-    (left, bottom), (right, top) = corners[best].astype(int), (corners[best] + size).astype(int) + 1
+    (left, bottom), (right, top) = corner.astype(int), (corner + size[:, 0]).astype(int) + 1
     taken[bottom:top, left:right] = _LABEL
 
 
 def _places(taken: NDArray[np.bool_], size: NDArray[np.int_], axes: Axes) -> NDArray[np.int_]:
-    """Return where a box may have its lower left corner: where it covers least, shape (n, 2)."""
-    sums = np.pad(np.cumsum(np.cumsum(taken, axis=0), axis=1), ((1, 0), (1, 0)))
+    """Return where a box may have its lower left corner: where it covers least, shape (2, n)."""
     width, height = size
     left, bottom = (max(int(np.ceil(end)), 0) for end in axes.bbox.p0)
     right, top = (min(int(end), n) for end, n in zip(axes.bbox.p1, taken.T.shape, strict=True))
-    x = np.arange(left, max(right - width, left) + 1, _STEP[0])
-    y = np.arange(bottom, max(top - height, bottom) + 1, _STEP[1])[:, None]
-    covered = sums[y + height, x + width] - sums[y, x + width] - sums[y + height, x] + sums[y, x]
-    rows, columns = np.nonzero(covered == covered.min())
-    return np.stack((x[columns], y[rows, 0]), axis=-1)
+    right, top = max(right, left + width), max(top, bottom + height)
+    sums = np.zeros((top - bottom + 1, right - left + 1), dtype=np.int32)
+    sums[1:, 1:] = taken[bottom:top, left:right]
+    for axis in (0, 1):
+        np.cumsum(sums, axis=axis, out=sums)
+    rows = sums[height :: _STEP[1]] - sums[: -height : _STEP[1]]
+    covered = rows[:, width :: _STEP[0]] - rows[:, : -width : _STEP[0]]
+    y, x = np.nonzero(covered == covered.min())
+    return np.stack((left + _STEP[0] * x, bottom + _STEP[1] * y))
+
+
+def _length(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the length of vectors, shape (2, ...)."""
+    x, y = vectors
+    length: NDArray[np.float64] = np.sqrt(x * x + y * y)
+    return length
 
 
 def _line(start: NDArray[np.float64], end: NDArray[np.float64]) -> tuple[NDArray[np.int_], ...]:
     """Return rows and columns of the picture along a line, or along several side by side."""
     share = np.linspace(0.0, 1.0, 60).reshape(-1, *[1] * start.ndim)
-    x, y = np.moveaxis((start + share * (end - start)).astype(int), -1, 0)
+    x, y = np.moveaxis((start + share * (end - start)).astype(int), 1, 0)
     return y, x

@@ -10,6 +10,7 @@ from typing import Any
 
 from matplotlib import get_data_path, rc_context
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.font_manager import fontManager
 from matplotlib.lines import Line2D
@@ -118,11 +119,18 @@ SCREEN: Any = {
 }
 
 
+def _figure(width: float, height: float) -> Figure:
+    """Return a figure whose words can be measured as it is drawn; its sides in inches."""
+    figure = Figure(figsize=(width, height))
+    FigureCanvasAgg(figure)
+    return figure
+
+
 @contextmanager
 def sheet_figure(height: float, **margins: float) -> Iterator[Figure]:
     """Give a figure as wide as the text of the sheet, in its style; height in inches."""
     with rc_context(_SHEET):
-        figure = Figure(figsize=(6.5, height))
+        figure = _figure(6.5, height)
         figure.subplots_adjust(**margins)
         yield figure
 
@@ -140,7 +148,7 @@ def page_figure(
 ) -> Iterator[Figure]:
     """Give a figure of the sheet with its size and its margins in millimetres."""
     with rc_context(_SHEET | _PAGE):
-        figure = Figure(figsize=(width / MILLIMETRES, height / MILLIMETRES))
+        figure = _figure(width / MILLIMETRES, height / MILLIMETRES)
         figure.subplots_adjust(
             left=left / width,
             right=1.0 - right / width,

@@ -27,9 +27,11 @@ from pypandoc import get_pandoc_path
 from traitlets import Int, Tuple, default
 
 from pierimpact.report.document.blocks import BLOCK_MIME, Block, for_html
+from pierimpact.report.document.table_size import lines_of
 from pierimpact.resources import shipped
 
-_MARKDOWN = "markdown-citations-yaml_metadata_block-raw_attribute"  # no Typst in a notebook's text
+# Jupyter reads a notebook's text as CommonMark too. There is no HTML or Typst to be smuggled in.
+_MARKDOWN = "commonmark_x-emoji-yaml_metadata_block-raw_attribute"
 _CUT = "pierimpactcutshere"  # a paragraph between two pieces of pandoc's input
 
 
@@ -48,6 +50,7 @@ class _SheetExporter(TemplateExporter):
 
     own_mime = ""  #: MIME type of outputs that go into the document unchanged
     pandoc_options: tuple[str, ...]
+    _formulas: Mapping[str, str] = MappingProxyType({})  #: markup of the document before, by LaTeX
 
     @default("optimistic_validation")
     def _default_optimistic_validation(self) -> bool:
@@ -100,12 +103,25 @@ class _SheetExporter(TemplateExporter):
                     yield {"type": "Prose", "markdown": data["text/markdown"]}
 
     def _convert(self, blocks: list[dict[str, Any]]) -> None:
-        """Add the `converted` markup to prose and mathematics, by one call of pandoc."""
+        """Add the `converted` markup to prose and mathematics, by one call of pandoc.
+
+        Most formulas of a sheet are those of the sheet before, and are kept from there.
+        """
         parts = [(part, text) for part in parts_of(blocks) if (text := _markdown(part)) is not None]
-        converted = self._pandoc([text for _, text in parts]) if parts else []
-        for (part, _), text in zip(parts, converted, strict=True):
-            formula = part["type"] != "Prose"
-            part["converted"] = text.removeprefix("<p>").removesuffix("</p>") if formula else text
+        prose = [(part, text) for part, text in parts if part["type"] == "Prose"]
+        formulas = [(part, text) for part, text in parts if part["type"] != "Prose"]
+        before = self._formulas  # another thread may put others there meanwhile
+        kept = {text: before[text] for _, text in formulas if text in before}
+        new = list(dict.fromkeys(text for _, text in formulas if text not in kept))
+        pieces = new + [text for _, text in prose]
+        converted = self._pandoc(pieces) if pieces else []
+        for text, markup in zip(new, converted, strict=False):
+            kept[text] = markup.removeprefix("<p>").removesuffix("</p>")
+        for part, text in formulas:
+            part["converted"] = kept[text]
+        for (part, _), markup in zip(prose, converted[len(new) :], strict=True):
+            part["converted"] = markup
+        self._formulas = kept
 
     def _pandoc(self, pieces: list[str]) -> list[str]:
         text = f"\n\n{_CUT}\n\n".join(pieces)
@@ -319,6 +335,7 @@ class SheetPDFExporter(_SheetExporter):
         environment.variable_start_string, environment.variable_end_string = "((=", "=))"
         environment.comment_start_string, environment.comment_end_string = "((--", "--))"
         environment.autoescape, environment.finalize = True, typst_string
+        environment.filters["lines"] = lines_of
         environment.filters["breakable"] = _breakable
         environment.filters["bytes"] = typst_bytes
         return environment

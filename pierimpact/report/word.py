@@ -20,8 +20,8 @@ from typing import Any
 import typst
 from nbformat import NotebookNode
 
-from pierimpact.report.document.markup import tex_length
 from pierimpact.report.document.numbered import CONTINUED
+from pierimpact.report.document.table_size import column_widths
 from pierimpact.report.exporters import (
     SheetHTMLExporter,
     font_folder,
@@ -49,7 +49,6 @@ _PAPER = {"a4": (11906, 16838), "us-letter": (12240, 15840)}  # twentieths of a 
 _SIDES = 1247 + 1134  # margins, as in the template of the page
 _INCH = 2.54  # exactly [cm]
 _DOTS = 200  # of a drawing, an inch; this project's choice
-_LETTERS = 105  # of a table's type on a line across the page; a width by eye, this project's choice
 _NO_OPERAND = "\\text{\u2003}"  # before an equals sign: LibreOffice wants something there
 
 
@@ -63,7 +62,7 @@ class SheetWordExporter(SheetHTMLExporter):
 
     def _create_environment(self) -> Any:
         environment = super()._create_environment()
-        environment.filters["column_widths"] = _column_widths
+        environment.filters["column_widths"] = column_widths
         return environment
 
     def _blocks(self, nb: NotebookNode) -> Iterator[dict[str, Any]]:
@@ -200,39 +199,6 @@ def raised_brackets(formula: str) -> str:
     for place, pair in sorted(pairs, reverse=True):
         formula = formula[:place] + pair + formula[place + 1 :]
     return formula
-
-
-def _column_widths(table: dict[str, Any]) -> list[float]:
-    """Return the widths of a table's columns, in per cent of the page's, from what is in them."""
-    wanted = []
-    for index, column in enumerate(table["columns"]):
-        longest = max((_length(row[index]) for row in table["rows"]), default=0)
-        words = max(map(len, re.split(r"\s", _plain(column["heading"]))), default=0)
-        wanted.append(min(max(longest, words), 40) + 4)
-    wide = [column["wide"] for column in table["columns"]]
-    rest = _LETTERS - sum(w for w, takes_rest in zip(wanted, wide, strict=True) if not takes_rest)
-    if any(wide):
-        wanted = [
-            max(rest / sum(wide), 20) if takes_rest else width
-            for width, takes_rest in zip(wanted, wide, strict=True)
-        ]
-    page = max(sum(wanted), _LETTERS)
-    return [round(100.0 * width / page, 1) for width in wanted]
-
-
-def _plain(words: Any) -> str:
-    """Return about what a piece of text prints, or a run of pieces, for its length."""
-    if isinstance(words, str):
-        return words
-    if isinstance(words, list):
-        return "".join(map(_plain, words))
-    if words["type"] == "Tex":
-        return "x" * tex_length(words["source"])
-    return str(words.get("text") or f"{words['kind']} (99)")
-
-
-def _length(words: Any) -> int:
-    return len(_plain(words))
 
 
 def _parts_in(document: bytes) -> dict[str, bytes]:

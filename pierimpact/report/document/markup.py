@@ -87,6 +87,17 @@ def tex_length(source: str) -> int:
     return len(re.sub(r"\\[a-z]+|[\s{}^_\\]", "", plain.replace(r"\times", "·")))
 
 
+def plain(words: Any) -> str:
+    """Return about what data of text print, a piece or a run of pieces, for their length."""
+    if isinstance(words, str):
+        return words
+    if isinstance(words, list):
+        return "".join(map(plain, words))
+    if words["type"] == "Tex":
+        return "x" * tex_length(words["source"])
+    return str(words.get("text") or f"{words['kind']} (99)")
+
+
 def in_tex(value: Printed) -> str:
     """Return a printed value with its unit as LaTeX."""
     return number_in_tex(value) + (rf"\ \text{{{value.unit}}}" if value.unit else "")
