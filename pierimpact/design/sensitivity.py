@@ -22,9 +22,8 @@ MASS_CHANGE = 0.2
 
 #: Curves run over these shares of the case's value: this project's choice.
 SHARES = np.linspace(0.5, 1.5, 31)
-# And over these frequencies, with more where a curve departs from the straight line through its
-# neighbours by so much of its largest value: this project's choice [Hz], [-].
-_FREQUENCIES, _BEND = np.geomspace(2.0, 200.0, 130), 0.002
+# And over these frequencies: this project's choice [Hz].
+_FREQUENCIES = np.geomspace(2.0, 200.0, 259)
 
 
 class Variation(NamedTuple):
@@ -120,32 +119,7 @@ def sensitivity(
         name: {float(value): changed for value in values if (changed := at(float(value)))}
         for name, (values, at) in asked.items()
     }
-    found = _reactions(collisions)
-    between = {float(value): at_frequency(float(value)) for value in _bends(found["frequency"])}
-    more = _reactions({"frequency": between})["frequency"] if between else None
-    found["frequency"] = _joined(found["frequency"], more)
-    return Sensitivity(speed_change, **found)  # type: ignore[arg-type]
-
-
-def _bends(spectrum: Variation | None) -> Array:
-    """Return frequencies halfway to the neighbours of those at which a curve bends [Hz]."""
-    assert spectrum is not None
-    x, bends = np.log(spectrum.values), np.zeros(len(spectrum.values), dtype=bool)
-    for y in spectrum[1:]:
-        straight = y[:-2] + (x[1:-1] - x[:-2]) / (x[2:] - x[:-2]) * (y[2:] - y[:-2])
-        # Where there is no contact there is no curve, and nothing is larger than nan.
-        bends[1:-1] |= np.abs(y[1:-1] - straight) > _BEND * np.max(y, where=y > 0.0, initial=0.0)
-    middles = np.exp(0.5 * (x[:-1] + x[1:]))
-    within = (middles > _FREQUENCIES[0]) & (middles < _FREQUENCIES[-1])
-    return np.asarray(middles[within & (bends[:-1] | bends[1:])])
-
-
-def _joined(first: Variation | None, second: Variation | None) -> Variation | None:
-    """Return two variations of one quantity as one."""
-    if first is None or second is None:
-        return first
-    order = np.argsort(np.concatenate((first.values, second.values)))
-    return Variation(*(np.concatenate(pair)[order] for pair in zip(first, second, strict=True)))
+    return Sensitivity(speed_change, **_reactions(collisions))  # type: ignore[arg-type]
 
 
 def _reactions(collisions: Mapping[str, Mapping[float, Collision]]) -> dict[str, Variation | None]:

@@ -364,10 +364,13 @@ def typst_string(value: Any) -> Any:
     """Return text as a Typst string literal: nothing in it can act as markup."""
     if isinstance(value, Markup):
         return value
-    return Markup(f'"{value.translate(_ESCAPED)}"')
+    for character, escaped in _ESCAPED.items():  # on long texts much quicker than a translation
+        value = value.replace(character, escaped)
+    return Markup(f'"{value}"')
 
 
-_ESCAPED = str.maketrans({"\\": r"\\", '"': r"\"", "\n": r"\n", "\r": r"\r", "\t": r"\t"})
+# The first escapes those that the others bring.
+_ESCAPED = {"\\": r"\\", '"': r"\"", "\n": r"\n", "\r": r"\r", "\t": r"\t"}
 
 
 def _breakable(text: str) -> str:

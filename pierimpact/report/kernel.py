@@ -41,8 +41,12 @@ start({private}, {starter})
 """
 _ENTER = "from pierimpact.report.kernel_process import enter; enter({folder})"
 # An error in a cell is in its output; the interrupt that ends the kernel is none. The notebook is
-# the history of what was run, and there is no other.
-_ARGUMENTS = ["--log-level=CRITICAL", "--HistoryManager.enabled=False"]
+# the history of what was run, and what it returned: there is no other.
+_ARGUMENTS = [
+    "--log-level=CRITICAL",
+    "--HistoryManager.enabled=False",
+    "--InteractiveShell.cache_size=0",
+]
 # A report's matrices are small: threads would only wait for each other, and for those of another.
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 _PATIENCE = 300  # with a kernel that lives and does not answer, as on a busy machine [s]
