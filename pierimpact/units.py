@@ -414,12 +414,16 @@ def rounded(value: float, digits: int) -> str:
     return text.replace(",", "" if exponent < 4 else "\u202f")
 
 
-def compared(ratio: float) -> str:
-    """Return a ratio to three figures, or to as many as show on which side of one it is."""
-    digits = 3
-    while digits < 16 and ratio != 1.0 and float(f"{ratio:.{digits - 1}e}") == 1.0:
+def compared(ratio: float, digits: int = 3) -> str:
+    """Return a ratio to so many figures, or to as many as show on which side of one it is."""
+    return rounded(ratio, telling_figures(ratio, digits))
+
+
+def telling_figures(ratio: float, digits: int) -> int:
+    """Return how many figures show on which side of one a ratio is, `digits` or more."""
+    while digits < 17 and ratio != 1.0 and float(f"{ratio:.{digits - 1}e}") == 1.0:
         digits += 1
-    return rounded(ratio, digits)
+    return digits
 
 
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

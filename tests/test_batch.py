@@ -56,6 +56,16 @@ def results_of(path):
     return Results.of(calculated(path))
 
 
+def page_of(rows):
+    """Return the summary of rows as a page."""
+    return "".join(block._repr_html_() for block in summary_blocks(rows))
+
+
+@pytest.fixture(scope="module")
+def tti_results(tmp_path_factory):
+    return results_of(write_case(tmp_path_factory.mktemp("tti") / "tti.yaml"))
+
+
 class Bar:
     """Stands in for the progress bar."""
 
@@ -317,13 +327,25 @@ def test_no_text_is_a_formula_to_a_spreadsheet(text):
     )
 
 
+@given(st.floats(1.0, 1.0 + 1e-3, exclude_min=True) | st.floats(1.0 - 1e-3, 1.0))
+def test_the_summary_shows_on_which_side_of_one_a_utilisation_is(tti_results, ratio):
+    results = tti_results.model_copy(update={"utilisations": {"shear": ratio}})
+    rows = [Row("case", results, [])]
+    (row,) = csv.DictReader(io.StringIO(summary_csv(rows), newline=""))
+    in_csv = float(row["utilisation in shear"])
+    headline = re.search(r"largest utilisation ([\d.]+): case, in shear", page_of(rows))
+    for shown in (in_csv, float(headline[1])):
+        assert (shown > 1.0, shown < 1.0) == (ratio > 1.0, ratio < 1.0)
+    assert in_csv == pytest.approx(ratio, abs=5e-4)
+
+
 @pytest.mark.parametrize("systems", [["US", "US"], ["SI", "US"]])
 def test_units_of_the_summary(tmp_path, systems):
     rows = []
     for index, system in enumerate(systems):
         case = write_case(tmp_path / f"{index}.yaml", units=system)
         rows.append(Row(case.stem, results_of(case), []))
-    page = "".join(block._repr_html_() for block in summary_blocks(rows))
+    page = page_of(rows)
     system = "US" if systems == ["US", "US"] else "SI"
     assert ("this summary is in SI" in page) == (systems != ["US", "US"])
     reader = csv.DictReader(io.StringIO(summary_csv(rows), newline=""))

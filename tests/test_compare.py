@@ -306,3 +306,12 @@ def test_warnings_that_came_and_went(calculated):
     # It is not another warning for another number in it.
     assert of_resistance(weaker) != of_resistance(weak)
     assert (compare(weak, weaker).came, compare(weak, weaker).went) == ([], [])
+
+
+@pytest.mark.parametrize("above", [1.0004, 1.00000004])
+def test_a_utilisation_near_one_shows_its_side(calculated, above):
+    largest = abs(calculated().member_forces.largest_shear.value)
+    firm, weak = (calculated(shear_resistance=f"{largest * r:.12g} N") for r in (above, 1 / above))
+    changes = {change.name: change for change in compare(firm, weak).results}
+    change = changes["Utilisation in shear"]
+    assert 0.999 < float(change.old) < 1.0 < float(change.new) < 1.001

@@ -10,6 +10,8 @@ import nbformat
 import numpy as np
 import pypdf
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from nbformat import v4
 from PIL import Image
 from scipy.ndimage import find_objects, label
@@ -209,3 +211,31 @@ def test_a_notebook_without_a_title_block_has_a_pdf_too():
     notebook = v4.new_notebook(cells=[v4.new_markdown_cell("# A lesson\n\nOn $x$.")])
     pdf, _ = SheetPDFExporter().from_notebook_node(notebook)
     assert "A lesson" in pypdf.PdfReader(io.BytesIO(pdf)).pages[0].extract_text()
+
+
+@given(st.lists(st.tuples(st.integers(1, 6), st.booleans()), min_size=1, max_size=8))
+@settings(max_examples=20, deadline=None)
+def test_headings_that_leave_out_levels_are_raised_in_the_pdf(headings):
+    cells = [
+        v4.new_markdown_cell(
+            f"{'#' * level} Heading {i}{' {.unnumbered}' * plain}\n\n```\n== code {i}\n```"
+        )
+        for i, (level, plain) in enumerate(headings)
+    ]
+    pdf, _ = SheetPDFExporter().from_notebook_node(v4.new_notebook(cells=cells))
+    reader = pypdf.PdfReader(io.BytesIO(pdf))
+    text = "".join(page.extract_text() for page in reader.pages)
+    assert all(f"== code {i}" in text for i in range(len(headings)))
+
+    def levels(outline, level=1):
+        for entry in outline:
+            if isinstance(entry, list):
+                yield from levels(entry, level + 1)
+            else:
+                yield level
+
+    found = list(levels(reader.outline))
+    assert len(found) == len(headings)
+    for i, (level, _) in enumerate(headings):
+        parent = max((j for j in range(i) if headings[j][0] < level), default=None)
+        assert found[i] == (1 if parent is None else found[parent] + 1)

@@ -17,7 +17,7 @@ from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
 from pierimpact.report.results import Results
 from pierimpact.symbols import BY_KEY
-from pierimpact.units import printed, rounded
+from pierimpact.units import compared, printed, rounded
 
 NOT_THERE = "—"
 _RETYPED = "The same value, typed in another way"
@@ -191,7 +191,9 @@ def _equal(before: _Value, after: _Value) -> bool:
 def _shown(value: _Value, notes: Iterable[str], system: str) -> str:
     """Return a value as it prints, with notes in brackets."""
     text = str(value.value)
-    if value.quantity and isinstance(value.value, float):
+    if value.quantity == "ratio" and isinstance(value.value, float) and value.typed is None:
+        text = compared(value.value, 4)
+    elif value.quantity and isinstance(value.value, float):
         text = str(printed(value.value, value.quantity, system, given=value.typed is not None))
     elif value.typed and not value.default:
         text = str(value.typed)

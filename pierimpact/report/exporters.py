@@ -328,6 +328,11 @@ class SheetPDFExporter(_SheetExporter):
     #: Pages before this one in a binder, and its pages in all; none outside a binder.
     binder: Any = Tuple(Int(), Int(), default_value=None, allow_none=True)
 
+    def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
+        sheet = super()._sheet(nb)
+        _close_gaps(sheet["blocks"])
+        return sheet
+
     def _create_environment(self) -> Environment:
         # Typst has its own use of braces and hashes. All text becomes a string literal.
         environment: Environment = super()._create_environment()  # type: ignore[no-untyped-call]
@@ -358,6 +363,36 @@ class SheetPDFExporter(_SheetExporter):
                 "that script, such as one of the Noto fonts"
             )
         return pdf, resources
+
+
+def _close_gaps(blocks: list[dict[str, Any]]) -> None:
+    """Raise headings that leave out a level, which PDF/UA does not allow, to the next there is."""
+    above: list[int] = []  # levels of the headings that a heading stands below, as they were
+
+    def raised(heading: re.Match[str]) -> str:
+        if heading["code"]:
+            return heading[0]
+        level = len(heading["marks"]) if heading["marks"] else int(heading["level"])
+        while above and above[-1] >= level:
+            above.pop()
+        above.append(level)
+        if heading["marks"]:
+            return heading["indent"] + "=" * len(above)
+        return f"#heading(level: {len(above)}"
+
+    for block in blocks:
+        if block["type"] == "Annex":
+            above[:] = [1]
+        elif block["type"] == "Prose":
+            block["converted"] = _HEADING.sub(raised, block["converted"])
+
+
+_HEADING = re.compile(
+    r"^ *(?P<code>`{3,}).*?^ *(?P=code)"
+    r"|^(?P<indent> *)(?P<marks>=+)(?= )"
+    r"|#heading\(level: (?P<level>\d+)",
+    re.DOTALL | re.MULTILINE,
+)
 
 
 def typst_string(value: Any) -> Any:

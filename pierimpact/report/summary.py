@@ -12,7 +12,15 @@ from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table, columns, wide
 from pierimpact.report.results import Results
 from pierimpact.symbols import BY_KEY
-from pierimpact.units import Printed, compared, printed, rounded, unit_of, unit_size
+from pierimpact.units import (
+    Printed,
+    compared,
+    printed,
+    rounded,
+    telling_figures,
+    unit_of,
+    unit_size,
+)
 
 UNKNOWN = "—"  # instead of what a case does not give
 EXCEEDED = "exceeded"
@@ -60,12 +68,16 @@ class _Column(NamedTuple):
         return printed(value, self.quantity, system, given=self.given).number
 
     def field(self, value: Any, system: str) -> Any:
-        """Return a value as the CSV has it: four figures, inputs five, an empty field if none."""
+        """Return a value as the CSV has it: four figures, inputs five, an empty field if none.
+
+        A ratio has as many as show on which side of one it is.
+        """
         if isinstance(value, str):
             return no_formula(value)
         if value is None:
             return None
-        number = float(f"{value / unit_size(self.quantity, system):.{4 + self.given}g}")
+        digits = telling_figures(value, 4) if self.quantity == "ratio" else 4 + self.given
+        number = float(f"{value / unit_size(self.quantity, system):.{digits}g}")
         return int(number) if number.is_integer() else number
 
 
@@ -263,7 +275,7 @@ def _headline(rows: Sequence[Row], system: str) -> Block:
     worst = "no case gives a resistance"
     if ratios:
         ratio, name, check = max(ratios)
-        worst = f"largest utilisation {rounded(ratio, 3)}: {name}, in {check}"
+        worst = f"largest utilisation {compared(ratio)}: {name}, in {check}"
     warned = sum(bool(_warnings(row)) for row in rows if row.results is not None)
     strongest = max(results, key=lambda name: results[name].design_reaction)
     failed = len(rows) - len(results)
