@@ -239,3 +239,14 @@ def test_headings_that_leave_out_levels_are_raised_in_the_pdf(headings):
     for i, (level, _) in enumerate(headings):
         parent = max((j for j in range(i) if headings[j][0] < level), default=None)
         assert found[i] == (1 if parent is None else found[parent] + 1)
+
+
+@pytest.mark.parametrize("opened", ["```\nnever closed", "<!-- never closed", "<pre>", "$x", "[a]("])
+@pytest.mark.parametrize("exporter", [SheetHTMLExporter, SheetPDFExporter, SheetWordExporter])
+def test_what_one_cell_leaves_open_does_not_reach_the_next(exporter, opened):
+    cells = [v4.new_markdown_cell(text) for text in ("# Before", opened, "# After\n\n$y^2$ words")]
+    notebook = v4.new_notebook(cells=cells)
+    _, resources = exporter().from_notebook_node(notebook)
+    *_, last = resources["sheet"]["blocks"]
+    assert "words" in last["converted"]
+    assert "After" in last["converted"]

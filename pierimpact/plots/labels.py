@@ -81,15 +81,13 @@ def _write(label: Label, taken: NDArray[np.int_]) -> None:
     gaps = _length(ends - nearest)
     costs = gaps + _SIDE * _length((corners + 0.5 * size)[:, None] - wanted)
     which = np.argmin(costs, axis=0)
-    own = which, np.arange(which.size)
-    gap, cost = gaps[own], costs[own]
+    gap, cost = (values[which, np.arange(which.size)] for values in (gaps, costs))
     best = np.argmin(cost)
     if gap[best] > _NEAR:
         order = np.argsort(cost, kind="stable")
         tried = np.concatenate((order[:_TRIED], order[:: len(order) // _TRIED + 1]))
-        crossed = taken[_line(nearest[:, which[tried], tried], ends[:, which[tried], 0])].sum(
-            axis=0
-        )
+        own = which[tried]
+        crossed = taken[_line(nearest[:, own, tried], ends[:, own, 0])].sum(axis=0)
         best = tried[np.argmin(cost[tried] + np.where(gap[tried] > _NEAR, crossed, 0))]
     corner, near, end = corners[:, best], nearest[:, which[best], best], ends[:, which[best], 0]
     line: dict[str, Any] = {}

@@ -96,14 +96,14 @@ class SheetWordExporter(SheetHTMLExporter):
             }
         return sheet
 
-    def _pandoc(self, pieces: list[str]) -> list[str]:
+    def _pandoc(self, reader: str, pieces: list[str]) -> list[str]:
         # Pandoc's reader takes LaTeX in a script element for mathematics, and elsewhere not.
         def script(math: re.Match[str]) -> str:
             kind = "math/tex" + ("; mode=display" if math[1] == "display" else "")
             return f'<script type="{kind}">{html.unescape(math[2])}</script>'
 
         marked = re.compile(r'<span\s+class="math (\w+)">\\[(\[](.*?)\\[)\]]</span>', re.DOTALL)
-        return [marked.sub(script, piece) for piece in super()._pandoc(pieces)]
+        return [marked.sub(script, piece) for piece in super()._pandoc(reader, pieces)]
 
     def from_notebook_node(
         self, nb: NotebookNode, resources: Any = None, **kw: Any
