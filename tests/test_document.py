@@ -241,7 +241,9 @@ def test_headings_that_leave_out_levels_are_raised_in_the_pdf(headings):
         assert found[i] == (1 if parent is None else found[parent] + 1)
 
 
-@pytest.mark.parametrize("opened", ["```\nnever closed", "<!-- never closed", "<pre>", "$x", "[a]("])
+@pytest.mark.parametrize(
+    "opened", ["```\nnever closed", "<!-- never closed", "<pre>", "$x", "[a]("]
+)
 @pytest.mark.parametrize("exporter", [SheetHTMLExporter, SheetPDFExporter, SheetWordExporter])
 def test_what_one_cell_leaves_open_does_not_reach_the_next(exporter, opened):
     cells = [v4.new_markdown_cell(text) for text in ("# Before", opened, "# After\n\n$y^2$ words")]
