@@ -2,9 +2,11 @@
 
 import io
 import json
+import os
 import re
 import shutil
 import subprocess
+import sys
 
 import nbformat
 import numpy as np
@@ -252,3 +254,25 @@ def test_what_one_cell_leaves_open_does_not_reach_the_next(exporter, opened):
     *_, last = resources["sheet"]["blocks"]
     assert "words" in last["converted"]
     assert "After" in last["converted"]
+
+
+RAIN = """
+import os, signal, threading, time
+from pierimpact.report.exporters import pandoc
+signal.signal(signal.SIGINT, lambda *_: None)
+
+def rain():
+    while True:
+        time.sleep(0.002)
+        os.killpg(os.getpgrp(), signal.SIGINT)
+
+threading.Thread(target=rain, daemon=True).start()
+assert {pandoc("--from=markdown", "--to=plain", text="words") for _ in range(100)} == {b"words\\n"}
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs the signals of POSIX")
+def test_ctrl_c_does_not_reach_pandoc():
+    command = [sys.executable, "-c", RAIN]
+    done = subprocess.run(command, start_new_session=True, capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (0, b"")

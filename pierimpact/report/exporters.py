@@ -9,21 +9,24 @@ import datetime
 import html
 import importlib.util
 import re
+import shutil
+import signal
 import string
 import subprocess
 import unicodedata
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+import pypandoc
 import typst
 from jinja2 import Environment
 from markupsafe import Markup
 from nbconvert.exporters.templateexporter import TemplateExporter
 from nbformat import NotebookNode, v4
-from pypandoc import get_pandoc_path
 from traitlets import Int, Tuple, default
 
 from pierimpact.report.document.blocks import BLOCK_MIME, Block, for_html
@@ -137,19 +140,27 @@ def pandoc(*options: str, text: str = "", **process: Any) -> bytes:
 
     It reads no file but those that the options name: none of the user's, and none of the text's.
     """
-    done: subprocess.CompletedProcess[bytes] = subprocess.run(
-        [
-            *(get_pandoc_path(), "--sandbox", f"--data-dir={shipped('templates')}"),
-            *("--fail-if-warnings", *options),
-        ],
-        input=text.encode(),
-        capture_output=True,
-        start_new_session=True,  # out of reach of Ctrl-C, which the caller handles
-        **process,
-    )
+    command = [_pandoc_path(), "--sandbox", f"--data-dir={shipped('templates')}"]
+    while True:
+        done: subprocess.CompletedProcess[bytes] = subprocess.run(
+            [*command, "--fail-if-warnings", *options],
+            input=text.encode(),
+            capture_output=True,
+            start_new_session=True,  # out of reach of Ctrl-C, which the caller handles
+            **process,
+        )
+        if done.returncode != -signal.SIGINT:  # which came before it was out of reach
+            break
     if done.returncode != 0:
         raise RuntimeError(f"pandoc: {done.stderr.decode().strip()}")
     return done.stdout
+
+
+@cache
+def _pandoc_path() -> str:
+    """Return where the pandoc is that comes with pypandoc; without one, any that it finds."""
+    own = str(Path(pypandoc.__file__).parent / "files")
+    return shutil.which("pandoc", path=own) or pypandoc.get_pandoc_path()
 
 
 def _printed(blocks: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
