@@ -152,9 +152,6 @@ def test_numbers_go_on_from_block_to_block():
     ]
 
 
-@pytest.mark.skipif(
-    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
-)
 @pytest.mark.parametrize("exporter", [SheetHTMLExporter, SheetPDFExporter, SheetWordExporter])
 def test_a_document_is_the_same_whatever_was_written_before_it(exporter):
     def notebook(*formulas, prose):
@@ -174,6 +171,9 @@ def test_a_document_is_the_same_whatever_was_written_before_it(exporter):
         assert used.from_notebook_node(each)[0] == exporter().from_notebook_node(each)[0]
 
 
+@pytest.mark.skipif(
+    shutil.which("chromium") is None, reason="needs a browser: apt-get install chromium"
+)
 def test_dots_stand_over_their_letters(tmp_path):
     """In Chromium, whose fonts are DejaVu's where no others are: a mark for each dot, above."""
     formulas = ("x", r"\dot x", r"\ddot x", r"\ddot m", r"\hat F")

@@ -10,10 +10,9 @@ from hypothesis import strategies as st
 from pierimpact.report.document.blocks import Paragraph, TitleBlock
 from pierimpact.report.document.markup import Tex
 from pierimpact.report.document.numbered import Column, Table
-from pierimpact.report.document.table_size import column_widths, lines_of
+from pierimpact.report.document.table_size import WHOLE, column_widths, is_whole, lines_of
 from pierimpact.report.exporters import SheetPDFExporter, notebook_of
 
-KEPT_WHOLE = 24  # lines from which on the template lets a table be broken
 FOOT = 21.0 / 25.4 * 72.0  # lower margin of the page [pt]
 
 WORDS = st.lists(st.sampled_from(["pier", "truck", "stiffness", "0.05"]), max_size=30).map(" ".join)
@@ -58,15 +57,15 @@ def test_no_row_is_below_the_page_and_a_low_table_is_on_one(table, paper):
     found = " ".join(text for page in pages for text, _ in page).split()
     assert set(found) >= {f"row{i}" for i in range(len(table.rows))}
     assert min(height for page in pages for _, height in page) > FOOT
-    if lines_of(table.data()) < KEPT_WHOLE:
+    if is_whole(table.data()):
         assert len(pages) == 1
 
 
-@pytest.mark.parametrize("rows", [23, 60])
+@pytest.mark.parametrize("rows", [WHOLE, 60])
 def test_a_table_of_many_rows_is_broken_and_one_of_fewer_is_not(rows):
     table = table_of([[f"row{i}", "short"] for i in range(rows)])
     assert lines_of(table.data()) == rows
-    assert (len(pages_of(table, "a4")) > 1) == (rows >= KEPT_WHOLE)
+    assert (len(pages_of(table, "a4")) > 1) == (rows > WHOLE)
 
 
 @given(tables())

@@ -30,7 +30,7 @@ from nbformat import NotebookNode, v4
 from traitlets import Int, Tuple, default
 
 from pierimpact.report.document.blocks import BLOCK_MIME, Block, for_html
-from pierimpact.report.document.table_size import lines_of
+from pierimpact.report.document.table_size import is_whole
 from pierimpact.resources import shipped
 
 # How pandoc reads prose, of which none is Typst, and formulas alone, which takes half as long.
@@ -354,7 +354,7 @@ class SheetPDFExporter(_SheetExporter):
         environment.variable_start_string, environment.variable_end_string = "((=", "=))"
         environment.comment_start_string, environment.comment_end_string = "((--", "--))"
         environment.autoescape, environment.finalize = True, typst_string
-        environment.filters["lines"] = lines_of
+        environment.tests["whole"] = is_whole
         environment.filters["breakable"] = _breakable
         environment.filters["bytes"] = typst_bytes
         return environment

@@ -9,6 +9,9 @@ from pierimpact.report.document.markup import plain
 
 _LETTERS = 105  # of a table's type on a line across the page; a width by eye, this project's choice
 _APART = 3  # of them, between two columns; this project's choice
+#: Lines of a table that is not broken over pages, this project's choice: 75 mm where cells take
+#: several, and 135 mm at most.
+WHOLE = 23
 
 
 def column_widths(table: Mapping[str, Any]) -> list[float]:
@@ -27,6 +30,11 @@ def column_widths(table: Mapping[str, Any]) -> list[float]:
         ]
     page = max(sum(wanted), _LETTERS)
     return [round(100.0 * width / page, 1) for width in wanted]
+
+
+def is_whole(table: Mapping[str, Any]) -> bool:
+    """Whether a table is so low that it is not broken over pages."""
+    return lines_of(table) <= WHOLE
 
 
 def lines_of(table: Mapping[str, Any]) -> int:
