@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from pierimpact import InputError
 from pierimpact.files.case import read_case_file
 from pierimpact.plots.figures import figure_of
-from pierimpact.plots.style import to_svg
+from pierimpact.plots.svg import to_svg
 from pierimpact.report.calculation import calculate
 from pierimpact.report.results import Results
 from pierimpact.report.sheet import Sheet

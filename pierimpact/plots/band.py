@@ -7,18 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from pierimpact.design.band import REACTIONS, ReactionBand
-from pierimpact.plots.style import (
-    BLUE,
-    GREY,
-    ORANGE,
-    PALE,
-    SKY,
-    key,
-    name_rows,
-    note,
-    sheet_figure,
-    to_svg,
-)
+from pierimpact.plots.style import BLUE, GREY, ORANGE, PALE, SKY, key, name_rows, note, sheet_figure
+from pierimpact.plots.svg import to_svg
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import unit_of, unit_size
 

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from matplotlib.axes import Axes
-from matplotlib.text import Text
+
+from pierimpact.plots.svg import size_of
 
 _APART = 3.0  # between the end of a bar and its words [pt]
 _ROUNDS = 30  # in which the ends of an axis find their places
@@ -41,7 +42,7 @@ def write_ends(axes: Axes, ends: Sequence[End], lowest: float | None = None) -> 
     """
     values = [end.value for end in ends]
     low, high = min(values) if lowest is None else lowest, max(values)
-    shares = []
+    shares, width = [], 72.0 * axes.bbox.width / axes.figure.dpi  # [pt]
     for end in ends:
         offset, side = (_APART, "left") if end.right else (-_APART, "right")
         text = axes.annotate(
@@ -52,8 +53,7 @@ def write_ends(axes: Axes, ends: Sequence[End], lowest: float | None = None) -> 
             ha=side,
             va="center",
         )
-        extent, pixels = Text.get_window_extent(text).width, axes.figure.dpi / 72.0
-        shares.append((extent + 2.0 * _APART * pixels) / axes.bbox.width)
+        shares.append((size_of(text)[0] + 2.0 * _APART) / width)
     for _ in range(_ROUNDS):
         for end, share in zip(ends, shares, strict=True):
             if end.right:

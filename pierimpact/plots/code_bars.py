@@ -5,7 +5,8 @@ from typing import Any
 
 from pierimpact.design.codes import CodeForce
 from pierimpact.plots.bars import End, name_bars, write_ends
-from pierimpact.plots.style import INK, SKY, TEXT_WIDTH, page_figure, to_svg
+from pierimpact.plots.style import INK, SKY, TEXT_WIDTH, page_figure
+from pierimpact.plots.svg import to_svg
 from pierimpact.plots.words import shown
 from pierimpact.units import unit_size
 

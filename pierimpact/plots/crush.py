@@ -5,7 +5,8 @@ from typing import Any
 from matplotlib.axes import Axes
 
 from pierimpact.plots.dimension import draw_dimension
-from pierimpact.plots.style import BODIES, MUTED, PALE, TEXT_WIDTH, page_figure, to_svg
+from pierimpact.plots.style import BODIES, MUTED, PALE, TEXT_WIDTH, page_figure
+from pierimpact.plots.svg import to_svg
 from pierimpact.plots.words import named
 from pierimpact.vehicle.truck import Truck
 

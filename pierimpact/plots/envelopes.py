@@ -11,7 +11,8 @@ from pierimpact.pier.column import PierColumn
 from pierimpact.pier.member_forces import MemberForceHistory, MemberForces
 from pierimpact.plots.ends import end_labels, mark_ends
 from pierimpact.plots.labels import Label, place
-from pierimpact.plots.style import BLUE, INK, TEXT_WIDTH, VERMILION, page_figure, to_svg, trim_ticks
+from pierimpact.plots.style import BLUE, INK, TEXT_WIDTH, VERMILION, page_figure, trim_ticks
+from pierimpact.plots.svg import to_svg
 from pierimpact.plots.words import named, shown
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import unit_of, unit_size

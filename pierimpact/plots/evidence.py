@@ -17,8 +17,8 @@ from pierimpact.plots.style import (
     name_rows,
     note,
     sheet_figure,
-    to_svg,
 )
+from pierimpact.plots.svg import to_svg
 from pierimpact.units import unit_of, unit_size
 
 Array = NDArray[np.float64]

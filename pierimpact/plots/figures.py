@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 
 from pierimpact.checks import InputError
 from pierimpact.design.sensitivity import Sensitivity
-from pierimpact.plots.style import BLUE, KEPT, VERMILION, logarithmic, sheet_figure, to_svg
+from pierimpact.plots.style import BLUE, VERMILION, logarithmic, sheet_figure
+from pierimpact.plots.svg import KEPT, to_svg
 from pierimpact.units import unit_of, unit_size
 
 P = ParamSpec("P")

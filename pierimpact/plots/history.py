@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.plots.labels import Label, place
-from pierimpact.plots.style import BLUE, INK, PALE, TEXT_WIDTH, page_figure, to_svg
+from pierimpact.plots.style import BLUE, INK, PALE, TEXT_WIDTH, page_figure
+from pierimpact.plots.svg import to_svg
 from pierimpact.plots.words import shown
 from pierimpact.units import unit_of, unit_size
 

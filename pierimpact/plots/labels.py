@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.plots.style import INK
+from pierimpact.plots.svg import size_of
 
 _FINE = 2  # picture elements a point
 _STEP = (3, 1)  # from one place to the next, across and upward [pt]
@@ -70,9 +71,8 @@ def _write(label: Label, taken: NDArray[np.int_]) -> None:
     """Write one label, and note what it and its line cover."""
     axes, points = label.axes, np.atleast_2d(np.asarray(label.points, dtype=float))
     text = axes.text(points[0, 0], points[0, 1], label.words, **label.options)
-    extent = text.get_window_extent()
+    size = np.reshape(size_of(text), (2, 1))
     text.remove()
-    size = np.array([[extent.width], [extent.height]])
     corners = _PAD + _places(taken > 0, np.ceil(size[:, 0] + 2.0 * _PAD).astype(int), axes)
     limits = np.array([taken.shape[::-1]]) - 1.0
     ends = np.clip(axes.transData.transform(points), 0.0, limits).T[..., None]

@@ -8,7 +8,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 from numpy.typing import NDArray
 
-from pierimpact.plots.style import BLUE, GREY, VERMILION, sheet_figure, to_svg
+from pierimpact.plots.style import BLUE, GREY, VERMILION, sheet_figure
+from pierimpact.plots.svg import to_svg
 from pierimpact.units import unit_of, unit_size
 
 Array: TypeAlias = NDArray[np.float64]

@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from pierimpact.plots.style import BLUE, GREY, ORANGE, VERMILION, sheet_figure, to_svg
+from pierimpact.plots.style import BLUE, GREY, ORANGE, VERMILION, sheet_figure
+from pierimpact.plots.svg import to_svg
 from pierimpact.risk.analysis import Risk
 from pierimpact.risk.exceedance import Exceedance
 from pierimpact.risk.traffic import YEAR

@@ -5,7 +5,8 @@ import numpy as np
 from pierimpact.pier.column import StruckColumn
 from pierimpact.plots.ends import end_labels, mark_ends
 from pierimpact.plots.labels import Label, place
-from pierimpact.plots.style import BLUE, INK, page_figure, to_svg
+from pierimpact.plots.style import BLUE, INK, page_figure
+from pierimpact.plots.svg import to_svg
 from pierimpact.plots.words import named
 from pierimpact.units import rounded, unit_of, unit_size
 

@@ -13,7 +13,8 @@ from pierimpact.plots.dimension import draw_dimension
 from pierimpact.plots.elevation import draw_column, draw_ground, widest
 from pierimpact.plots.labels import Label, place
 from pierimpact.plots.section import draw_section, outline
-from pierimpact.plots.style import INK, MUTED, PALE, VERMILION, page_figure, to_svg
+from pierimpact.plots.style import INK, MUTED, PALE, VERMILION, page_figure
+from pierimpact.plots.svg import to_svg
 from pierimpact.plots.words import named, shown
 from pierimpact.vehicle.truck import Truck
 

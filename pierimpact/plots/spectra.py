@@ -17,8 +17,8 @@ from pierimpact.plots.style import (
     logarithmic,
     page_figure,
     round_out,
-    to_svg,
 )
+from pierimpact.plots.svg import to_svg
 from pierimpact.plots.words import shown
 from pierimpact.units import unit_of, unit_size
 

@@ -1,10 +1,8 @@
-"""What all figures share: colours, the styles of sheet and screen, axes, and the way to SVG."""
+"""What all figures share: colours, the styles of sheet and screen, and axes."""
 
-import io
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
 
@@ -157,19 +155,6 @@ def page_figure(
             **spacing,
         )
         yield figure
-
-
-#: The figures that are drawn, where somebody asks for them.
-KEPT: ContextVar[list[Figure] | None] = ContextVar("KEPT", default=None)
-
-
-def to_svg(figure: Figure) -> str:
-    """Return a figure as SVG, without its date."""
-    buffer = io.StringIO()
-    if (kept := KEPT.get()) is not None:
-        kept.append(figure)
-    figure.savefig(buffer, format="svg", metadata={"Date": None})
-    return buffer.getvalue()
 
 
 def logarithmic(axes: Axes, ticks: Sequence[float] = FREQUENCY_TICKS) -> None:

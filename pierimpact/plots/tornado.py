@@ -10,7 +10,8 @@ from pierimpact.collision.parameters import Collision
 from pierimpact.design.band import ReactionBand
 from pierimpact.design.sensitivity import SHARES, Sensitivity, Variation
 from pierimpact.plots.bars import End, name_bars, write_ends
-from pierimpact.plots.style import BLUE, INK, SKY, TEXT_WIDTH, page_figure, to_svg, trim_ticks
+from pierimpact.plots.style import BLUE, INK, SKY, TEXT_WIDTH, page_figure, trim_ticks
+from pierimpact.plots.svg import to_svg
 from pierimpact.plots.words import shown
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import unit_of, unit_size

@@ -12,7 +12,8 @@ from pierimpact.design.reduction import exact_amplification
 from pierimpact.design.spectra import Spectrum
 from pierimpact.design.study import Reactions
 from pierimpact.plots.figures import CLOSED, DESIGN, EXACT, MODEL, name_spectra
-from pierimpact.plots.style import BLUE, GREY, logarithmic, sheet_figure, to_svg
+from pierimpact.plots.style import BLUE, GREY, logarithmic, sheet_figure
+from pierimpact.plots.svg import to_svg
 from pierimpact.units import unit_of, unit_size
 
 Array = NDArray[np.float64]
