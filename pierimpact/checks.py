@@ -70,11 +70,17 @@ def not_negative(name: str, value: SupportsFloat) -> float:
     return result
 
 
+def told_from(value: float, limit: float) -> str:
+    """Return a value with six figures, or all where six are those of a limit that it is not."""
+    few = f"{value:g}"
+    return repr(float(value)) if few == f"{limit:g}" and value != limit else few
+
+
 def ratio(name: str, value: SupportsFloat) -> float:
     """Return `value` as a float from zero to below one."""
     result = number(name, value)
     if not 0.0 <= result < 1.0:
-        raise InputError(f"{name} must lie from 0 to below 1, got {result:g}")
+        raise InputError(f"{name} must lie from 0 to below 1, got {told_from(result, 1.0)}")
     return result
 
 

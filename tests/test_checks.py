@@ -3,8 +3,16 @@ import math
 import numpy as np
 import pytest
 
-from pierimpact import InputError
-from pierimpact.checks import not_negative, number, one_of, positive, ratio, whole
+from pierimpact import CircularSection, InputError, PierColumn
+from pierimpact.checks import (
+    not_negative,
+    number,
+    one_of,
+    positive,
+    ratio,
+    told_from,
+    whole,
+)
 
 
 @pytest.mark.parametrize("check", [number, positive, not_negative])
@@ -51,6 +59,22 @@ def test_shares_and_whole_numbers():
     for value, message in ((2, "be at least 3, got 2"), (3.0, r"be a whole number, got 3\.0")):
         with pytest.raises(InputError, match=f"^size must {message}$"):
             whole("size", value, 3)
+
+
+@pytest.mark.parametrize("limit", [0.5, 1.0, 1.27, 1e8, 3e-9, 2.5e-300])
+def test_a_value_is_told_from_the_limit_that_it_broke(limit):
+    assert told_from(limit, limit) == f"{limit:g}"
+    for exponent in range(1, 16):
+        for value in (limit * (1.0 - 10.0**-exponent), limit * (1.0 + 10.0**-exponent)):
+            shown = told_from(value, limit)
+            assert shown != f"{limit:g}"
+            assert float(shown) == pytest.approx(value, rel=5e-6)
+    column = PierColumn(
+        section=CircularSection(diameter=0.4), height=1.27, elastic_modulus=25e9, density=2400.0,
+        poisson_ratio=0.2, base="fixed", top="pinned",
+    )  # fmt: skip
+    with pytest.raises(InputError, match=r"height 1\.27 m .*, got 1\.2700000000000002 m$"):
+        column.struck_at(math.nextafter(1.27, 2.0))
 
 
 def test_one_of():

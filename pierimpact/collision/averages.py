@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.checks import InputError, positive
+from pierimpact.checks import InputError, positive, told_from
 from pierimpact.collision.history import CollisionHistory, hermite
 
 Array = NDArray[np.float64]
@@ -43,7 +43,9 @@ def largest_average_force(history: CollisionHistory, window: float) -> AverageFo
     time, force, impulse = history.time, history.contact_force, history.impulse
     end = float(time[-1])
     if window > end:
-        raise InputError(f"window must be at most the history's {end:g} s, got {window:g}")
+        raise InputError(
+            f"window must be at most the history's {end:g} s, got {told_from(window, end)} s"
+        )
 
     def impulse_at(t: Array | float) -> Array:
         # It is zero before first touch, and its slope is the force.

@@ -20,6 +20,7 @@ from pierimpact.checks import (
     positive,
     positive_array,
     positive_or_infinite_array,
+    told_from,
 )
 from pierimpact.collision.averages import largest_average_force
 from pierimpact.collision.parameters import Collision
@@ -220,7 +221,7 @@ def hertz_stiffness(
     modulus = positive("elastic_modulus", elastic_modulus)
     nu = not_negative("poisson_ratio", poisson_ratio)
     if nu > 0.5:
-        raise InputError(f"poisson_ratio must be at most 0.5, got {nu:g}")
+        raise InputError(f"poisson_ratio must be at most 0.5, got {told_from(nu, 0.5)}")
     ratio = max(radii) / min(radii)
 
     def excess(n: float) -> float:

@@ -21,7 +21,7 @@ From the model to the reduction, step by step:
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import InputError, positive_array, ratio_array
+from pierimpact.checks import InputError, positive_array, ratio_array, told_from
 from pierimpact.collision.parameters import Parameters, Spring, in_chunks
 from pierimpact.collision.propagation import propagate_all
 from pierimpact.collision.regimes import FREE, STEEP, Position, State, branch, start
@@ -65,7 +65,7 @@ def exact_amplification(
     mu = positive_array("mass_ratio", mass_ratio)
     e = positive_array("restitution", restitution)
     if np.any(e > 1.0):
-        raise InputError(f"restitution must be at most 1, got {e.max():g}")
+        raise InputError(f"restitution must be at most 1, got {told_from(e.max(), 1.0)}")
     zeta = ratio_array("damping_ratio", damping_ratio)
     arrays = np.broadcast_arrays(beta, mu, e, zeta)
     beta, mu, e, zeta = (array.reshape(-1) for array in arrays)

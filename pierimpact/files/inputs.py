@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo
 
-from pierimpact.checks import InputError, brief, known, not_negative, one_line, positive
+from pierimpact.checks import InputError, brief, known, not_negative, one_line, positive, told_from
 from pierimpact.files.limits import possible
 from pierimpact.pier.column import POISSON_RATIO
 from pierimpact.pier.equivalent import DAMPING_RATIO
@@ -36,7 +36,7 @@ def _quantity(name: str, value: Any) -> float:
 
 def _share(name: str, value: Any) -> float:
     if not 0.0 < (result := _plain_number(name, value)) <= 1.0:
-        raise InputError(f"{name} must lie above 0 to 1, got {result:g}")
+        raise InputError(f"{name} must lie above 0 to 1, got {told_from(result, 1.0)}")
     return result
 
 
@@ -52,13 +52,13 @@ def _factor(name: str, value: Any) -> float:
 
 def _damping_ratio(name: str, value: Any) -> float:
     if (result := _plain_number(name, value)) >= 1.0:
-        raise InputError(f"{name} must be below 1, got {result:g}")
+        raise InputError(f"{name} must be below 1, got {told_from(result, 1.0)}")
     return result
 
 
 def _poisson_ratio(name: str, value: Any) -> float:
     if (result := _plain_number(name, value)) > 0.5:
-        raise InputError(f"{name} must be at most 0.5, got {result:g}")
+        raise InputError(f"{name} must be at most 0.5, got {told_from(result, 0.5)}")
     return result
 
 

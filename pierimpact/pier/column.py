@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import InputError, not_negative, number, one_of, positive
+from pierimpact.checks import InputError, not_negative, number, one_of, positive, told_from
 from pierimpact.handcalc import Calculation
 from pierimpact.pier.arrangement import SUPPORTS, Arrangement, Part, Support, refuse_mechanism
 from pierimpact.pier.beam import BeamPier, beam_pier
@@ -147,7 +147,9 @@ class PierColumn:
         _require_section("section", self.section)
         poisson_ratio = not_negative("poisson_ratio", self.poisson_ratio)
         if poisson_ratio > 0.5:
-            raise InputError(f"poisson_ratio must be at most 0.5, got {poisson_ratio:g}")
+            raise InputError(
+                f"poisson_ratio must be at most 0.5, got {told_from(poisson_ratio, 0.5)}"
+            )
         object.__setattr__(self, "poisson_ratio", poisson_ratio)
         self._check_stiffness()
         for name in ("top_mass", "embedment", *_SPRINGS):
@@ -164,8 +166,8 @@ class PierColumn:
             if not below + least <= step.height <= self.height - least:
                 raise InputError(
                     f"steps[{place}].height must be above {below:g} m and below the height "
-                    f"{self.height:g} m, got {step.height:g} m: no part may be shorter than "
-                    f"{least:g} m"
+                    f"{self.height:g} m, got {told_from(step.height, self.height)} m: no part may "
+                    f"be shorter than {least:g} m"
                 )
             below = step.height
 
@@ -186,7 +188,7 @@ class PierColumn:
     def _check_stiffness(self) -> None:
         factor = positive("stiffness_factor", self.stiffness_factor)
         if factor > 1.0:
-            raise InputError(f"stiffness_factor must be at most 1, got {factor:g}")
+            raise InputError(f"stiffness_factor must be at most 1, got {told_from(factor, 1.0)}")
         object.__setattr__(self, "stiffness_factor", factor)
         if self.effective_stiffness is None:
             return
@@ -362,7 +364,7 @@ class StruckColumn:
                 f"impact_height must be {'at least' if on_base else 'above'} 0 m and "
                 f"{'at most' if on_top else 'below'} the height {column.height:g} m "
                 f"of a column with {column.base} base and {column.top} top, got "
-                f"{impact_height:g} m"
+                f"{told_from(impact_height, column.height)} m"
             )
 
     @cached_property

@@ -5,7 +5,7 @@ from math import inf, isfinite, pi
 
 from numpy import sqrt
 
-from pierimpact.checks import InputError, not_negative, positive, positive_or_infinite
+from pierimpact.checks import InputError, not_negative, positive, positive_or_infinite, told_from
 from pierimpact.handcalc import Calculation, Real
 
 #: Damping ratio ζ unless another is given: this project's assumption, usual for concrete piers.
@@ -87,7 +87,7 @@ class EquivalentPier:
         object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
         damping_ratio = not_negative("damping_ratio", self.damping_ratio)
         if damping_ratio >= 1.0:
-            raise InputError(f"damping_ratio must be below 1, got {damping_ratio:g}")
+            raise InputError(f"damping_ratio must be below 1, got {told_from(damping_ratio, 1.0)}")
         object.__setattr__(self, "damping_ratio", damping_ratio)
         yield_reaction = positive_or_infinite("yield_reaction", self.yield_reaction)
         object.__setattr__(self, "yield_reaction", yield_reaction)

@@ -18,7 +18,7 @@ from numpy import maximum, minimum, tan, where
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
-from pierimpact.checks import InputError, positive
+from pierimpact.checks import InputError, positive, told_from
 from pierimpact.handcalc import Calculation, Real
 
 _NODES, _WEIGHTS = leggauss(32)
@@ -207,7 +207,7 @@ class _Shape(Section):
         if kappa is None or isinstance(kappa, _Own):
             kappa = _Own(self._calculated["kappa"])
         elif (kappa := positive("shear_coefficient", kappa)) > 1.0:
-            raise InputError(f"shear_coefficient must be at most 1, got {kappa:g}")
+            raise InputError(f"shear_coefficient must be at most 1, got {told_from(kappa, 1.0)}")
         object.__setattr__(self, "shear_coefficient", kappa)
 
     @property
@@ -258,7 +258,8 @@ def _leave_a_hole(thickness: float, **sizes: float) -> None:
     name, size = min(sizes.items(), key=lambda item: item[1])
     if thickness >= 0.5 * size:
         raise InputError(
-            f"wall_thickness must be below half the {name} of {size:g} m, got {thickness:g} m"
+            f"wall_thickness must be below half the {name} of {size:g} m, "
+            f"got {told_from(thickness, 0.5 * size)} m"
         )
 
 
@@ -523,7 +524,7 @@ class FreeSection(Section):
         if self.shear_area > self.area:
             raise InputError(
                 f"shear_area must be at most the area of {self.area:g} m², "
-                f"got {self.shear_area:g} m²"
+                f"got {told_from(self.shear_area, self.area)} m²"
             )
 
     @property

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import InputError, positive
+from pierimpact.checks import InputError, positive, told_from
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,12 +54,13 @@ class CrushSpring:
         if self.unloading_stiffness < self.stiffness:
             raise InputError(
                 f"unloading_stiffness must be at least stiffness ({self.stiffness:g} N/m), "
-                f"got {self.unloading_stiffness:g} N/m"
+                f"got {told_from(self.unloading_stiffness, self.stiffness)} N/m"
             )
         if self.plateau_length < self.elastic_limit:
             raise InputError(
                 f"plateau_length must be at least plateau_force/unloading_stiffness "
-                f"({self.elastic_limit:g} m), got {self.plateau_length:g} m"
+                f"({self.elastic_limit:g} m), "
+                f"got {told_from(self.plateau_length, self.elastic_limit)} m"
             )
 
     @property

@@ -4,7 +4,7 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from pierimpact.checks import InputError, brief, not_negative, one_of, positive
+from pierimpact.checks import InputError, brief, not_negative, one_of, positive, told_from
 from pierimpact.vehicle.crush import CrushSpring
 from pierimpact.vehicle.spread import Spread, checked_spreads
 
@@ -148,7 +148,8 @@ class Truck:
         mass = positive("mass", mass)
         if mass <= self.engine_mass:
             raise InputError(
-                f"mass must exceed the engine's {self.engine_mass:g} kg, got {mass:g} kg"
+                f"mass must exceed the engine's {self.engine_mass:g} kg, "
+                f"got {told_from(mass, self.engine_mass)} kg"
             )
         spread = {name: spread for name, spread in self.spread.items() if name != "body_mass"}
         return replace(self, body_mass=mass - self.engine_mass, spread=spread)
