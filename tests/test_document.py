@@ -166,8 +166,9 @@ def test_a_document_is_the_same_whatever_was_written_before_it(exporter):
     first = notebook("a", r"\frac{a}{b}", "c^2", prose="# One\n\n$a$")
     second = notebook("c^2", "d", "d", prose="$a$")
     third = notebook("a", "d", prose="# Two\n\nwords[^1]\n\n[^1]: a note")
+    fourth = notebook("e", prose="# Two\n\nwords[^1]\n\n[^1]: a note")
     used = exporter()
-    for each in (first, second, third, first):
+    for each in (first, second, third, fourth, first):
         assert used.from_notebook_node(each)[0] == exporter().from_notebook_node(each)[0]
 
 

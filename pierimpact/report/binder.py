@@ -6,8 +6,10 @@ Typst sets each document; here their pages, tags and bookmarks are put one behin
 import hashlib
 import io
 import itertools
+import os
 import re
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -29,8 +31,8 @@ from pypdf.generic import (
 from pierimpact.report.document.blocks import Block, Notice, TitleBlock
 from pierimpact.report.document.markup import Inline, PageLink
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
-from pierimpact.report.exporters import SheetPDFExporter, notebook_of
-from pierimpact.report.write import Report
+from pierimpact.report.exporters import notebook_of
+from pierimpact.report.write import Report, exporter_for
 
 
 class BoundSheet(NamedTuple):
@@ -111,16 +113,15 @@ def bind(title: TitleBlock, sheets: Sequence[BoundSheet], more: Sequence[Block] 
     before = list(itertools.accumulate((sheet.pages for sheet in sheets), initial=first))
     pages = before.pop()
     front = _pdf(contents([start + 1 for start in before]), (0, pages))
-    bound = [
-        (sheet.bookmark, _pdf(sheet.notebook, (start, pages)))
-        for sheet, start in zip(sheets, before, strict=True)
-    ]
-    return _joined(front, bound)
+    with ThreadPoolExecutor(os.cpu_count()) as executor:
+        notebooks, places = [sheet.notebook for sheet in sheets], [(n, pages) for n in before]
+        bound = list(executor.map(_pdf, notebooks, places))
+    return _joined(front, [(own.bookmark, pdf) for own, pdf in zip(sheets, bound, strict=True)])
 
 
-def _pdf(notebook: NotebookNode, place: tuple[int, int] | None) -> bytes:
-    exporter: Any = SheetPDFExporter
-    pdf: bytes = exporter(binder=place).from_notebook_node(notebook)[0]
+def _pdf(notebook: NotebookNode, place: tuple[int, int]) -> bytes:
+    """Return a document with so many pages before it, in a binder of so many in all."""
+    pdf: bytes = exporter_for(".pdf").from_notebook_node(notebook, {"binder": place})[0]
     return pdf
 
 

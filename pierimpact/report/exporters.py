@@ -27,7 +27,7 @@ from jinja2 import Environment
 from markupsafe import Markup
 from nbconvert.exporters.templateexporter import TemplateExporter
 from nbformat import NotebookNode, v4
-from traitlets import Int, Tuple, default
+from traitlets import default
 
 from pierimpact.report.document.blocks import BLOCK_MIME, Block, for_html
 from pierimpact.report.document.table_size import is_whole
@@ -54,7 +54,9 @@ class _SheetExporter(TemplateExporter):
 
     own_mime = ""  #: MIME type of outputs that go into the document unchanged
     pandoc_options: tuple[str, ...]
-    _formulas: Mapping[str, str] = MappingProxyType({})  #: markup of the document before, by LaTeX
+    # Of the document before: the markup of its formulas, by LaTeX, and its prose with the markup.
+    _formulas: Mapping[str, str] = MappingProxyType({})
+    _prose: tuple[Sequence[str], Sequence[str]] = ((), ())
 
     @default("optimistic_validation")
     def _default_optimistic_validation(self) -> bool:
@@ -109,7 +111,8 @@ class _SheetExporter(TemplateExporter):
     def _convert(self, blocks: list[dict[str, Any]]) -> None:
         """Add the `converted` markup to prose and mathematics.
 
-        Most formulas of a sheet are those of the sheet before, and are kept from there.
+        The prose of a sheet and most of its formulas are those of the sheet before, and are kept
+        from there.
         """
         parts = [(part, text) for part in parts_of(blocks) if (text := _markdown(part)) is not None]
         prose = [(part, text) for part, text in parts if part["type"] == "Prose"]
@@ -121,10 +124,13 @@ class _SheetExporter(TemplateExporter):
             kept[text] = markup.removeprefix("<p>").removesuffix("</p>")
         for part, text in formulas:
             part["converted"] = kept[text]
-        converted = self._pandoc(_PROSE, [text for _, text in prose])
-        for (part, _), markup in zip(prose, converted, strict=True):
+        texts = [text for _, text in prose]
+        own = self._prose
+        if own[0] != texts:
+            own = texts, self._pandoc(_PROSE, texts)
+        for (part, _), markup in zip(prose, own[1], strict=True):
             part["converted"] = markup
-        self._formulas = kept
+        self._formulas, self._prose = kept, own
 
     def _pandoc(self, reader: str, pieces: list[str]) -> list[str]:
         """Return what pandoc makes of each piece, in one call."""
@@ -339,8 +345,6 @@ class SheetPDFExporter(_SheetExporter):
     output_mimetype = "application/pdf"
     template_name = "pierimpact-pdf"
     pandoc_options = ("--to=typst",)
-    #: Pages before this one in a binder, and its pages in all; none outside a binder.
-    binder: Any = Tuple(Int(), Int(), default_value=None, allow_none=True)
 
     def _sheet(self, nb: NotebookNode) -> dict[str, Any]:
         sheet = super()._sheet(nb)
@@ -362,10 +366,14 @@ class SheetPDFExporter(_SheetExporter):
     def from_notebook_node(
         self, nb: NotebookNode, resources: Any = None, **kw: Any
     ) -> tuple[Any, dict[str, Any]]:
-        """Return the notebook as a PDF, and nbconvert's resources."""
+        """Return the notebook as a PDF, and nbconvert's resources.
+
+        Those given may have under "binder" the pages before this document in one, and all of its.
+        """
         source, resources = super().from_notebook_node(nb, resources, **kw)
         resources["output_extension"] = ".pdf"
-        inputs = {"binder": f"{self.binder[0]}/{self.binder[1]}"} if self.binder else {}
+        place = resources.get("binder")
+        inputs = {"binder": f"{place[0]}/{place[1]}"} if place else {}
         pdf, missing = compile_typst(source, resources["sheet"]["date"], inputs)
         resources["warnings"] = []
         if missing:
