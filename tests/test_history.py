@@ -7,7 +7,6 @@ from generated_collisions import HARD, collisions
 from scipy.interpolate import BPoly
 
 from pierimpact import simulate
-from pierimpact.collision.history import hermite
 
 GENERATED = collisions(100, seed=30)
 EVERY = pytest.mark.parametrize(
@@ -215,10 +214,3 @@ def test_a_truck_that_has_left_flies_freely_and_the_pier_rings_on():
             atol=1e-10 * np.abs(history.pier_displacement).max(),
         )
     assert left >= 10
-
-
-def test_a_cubic_is_found_between_its_samples():
-    time = np.array([0.0, 0.3, 1.0, 1.1, 2.0])
-    cubic = np.polynomial.Polynomial([1.0, -2.0, 0.5, 3.0])
-    at = np.linspace(0.0, 2.0, 50)
-    assert hermite(time, cubic(time), cubic.deriv()(time), at) == pytest.approx(cubic(at))

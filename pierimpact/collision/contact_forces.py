@@ -1,8 +1,8 @@
 """Contact forces of many collisions at a time: the largest, and the largest moving average.
 
 The impulse on the pier is what the truck has lost of its momentum, but for the road's friction, so
-that it is known at the ends of every step with its first two rates. Over a step it follows the
-polynomial of the fifth degree through both, which is exact where the forces are constant. Derived
+that it is known at the ends of every step with its first three rates. Over a step it follows the
+polynomial of the seventh degree through both, which is exact where the forces are constant. Derived
 here; the histories of single collisions (`averages`) have the same from the motion of the pier.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.checks import positive
-from pierimpact.collision.averages import largest_average_force
+from pierimpact.collision.averages import BESIDE, largest_average_force
 from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.collision.propagation import Running, propagate_all
 from pierimpact.collision.regimes import LinearMotion, State, accelerations
@@ -26,6 +26,9 @@ Array: TypeAlias = NDArray[np.float64]
 
 # Numerical: halvings of the stretch in which an average turns from rising to falling.
 HALVINGS = 20
+# From what is missing at the end of a step of length one, and in its first three rates, to the
+# coefficients of s⁴ to s⁷ that make up for it.
+_TO_THE_END = np.linalg.inv([[math.perm(n, rate) for n in range(4, 8)] for rate in range(4)])
 
 
 class ContactForces(NamedTuple):
@@ -49,6 +52,8 @@ class _Steps(NamedTuple):
     force_after: Array  # at the end [N]
     rate: Array  # of the force, at the start [N/s]
     rate_after: Array
+    bend: Array  # rate of that rate, at the start [N/s²]
+    bend_after: Array
 
 
 class _Recorder:
@@ -69,21 +74,25 @@ class _Recorder:
         for state in (before, after):
             position = state.position
             F1, F2 = motion.forces(position)
-            _, d2, ap = accelerations(motion, position)
+            d1, d2, ap = accelerations(motion, position)
             rate1, rate2 = motion.slope1 * position.u1, motion.slope2 * position.u2
+            bend1, bend2 = motion.slope1 * d1, motion.slope2 * d2
             # What sticks to the pier takes its share of the engine's force, and moves with it.
-            common = motion.inverse_mp * rate1 - motion.b * position.vp - motion.c * ap
+            jerk = motion.inverse_mp * rate1 - motion.b * position.vp - motion.c * ap
+            common = motion.inverse_mp * bend1 - motion.b * ap - motion.c * jerk
             held = before.stuck & on_pier
             force = F1 + np.where(on_pier, -m2 * (d2 + ap), F2)
-            rate = rate1 + np.where(held, -m2 * common, rate2)
+            rate = rate1 + np.where(held, -m2 * jerk, rate2)
+            bend = bend1 + np.where(held, -m2 * common, bend2)
             momentum = m1 * (position.u1 + position.vp), m2 * (position.u2 + position.vp)
-            ends.append((force, rate, F2, rate2, *momentum))
-        (force, rate, F2, rate2, p1, p2), (force_after, rate_after, F2a, rate2a, p1a, p2a) = ends
+            ends.append((force, rate, bend, F2, rate2, *momentum))
+        (force, rate, bend, F2, rate2, p1, p2), (*after_it, F2a, rate2a, p1a, p2a) = ends
         # A body that sticks to the road loses to the pier what the road gives it.
         at_rest = 0.5 * h * (F2 + F2a) + h * h * (rate2 - rate2a) / 12.0
         sliding = p2 - p2a - np.where(on_pier, 0.0, motion.friction) * h
         gained = p1 - p1a + np.where(before.stuck & ~on_pier, at_rest, sliding)
-        step = (running.column, before.time, h, gained, force, force_after, rate, rate_after)
+        pairs = (force, after_it[0], rate, after_it[1], bend, after_it[2])
+        step = (running.column, before.time, h, gained, *pairs)
         self._steps.append(_Steps(*(values[taken] for values in step)))
 
     def pass_over(self, column: NDArray[np.int_]) -> None:
@@ -171,34 +180,32 @@ def _largest(steps: _Steps, size: int) -> Array:
 
 def _impulse(steps: _Steps, s: Array) -> Array:
     """Return the impulse gained up to the fraction `s` of steps [N s]."""
-    h, end = steps.length, steps.gained
-    F, G = h * steps.force, h * h * steps.rate
-    a, b, c = _rest(steps)
-    return np.where(s < 1.0, s * (F + s * (0.5 * G + s * (a + s * (b + s * c)))), end)
+    h, rest = steps.length, _rest(steps)
+    known = s * h * (steps.force + s * h * (steps.rate / 2.0 + s * h * steps.bend / 6.0))
+    more = s**4 * sum(c * s**n for n, c in enumerate(rest))
+    return np.where(s < 1.0, known + more, steps.gained)
 
 
 def _force(steps: _Steps, s: Array) -> Array:
     """Return the contact force at the fraction `s` of steps [N]."""
-    h = steps.length
-    a, b, c = _rest(steps)
-    return steps.force + s * (h * steps.rate + s * (3.0 * a + s * (4.0 * b + s * 5.0 * c)) / h)
+    h, rest = steps.length, _rest(steps)
+    known = steps.force + s * h * (steps.rate + s * h * steps.bend / 2.0)
+    more: Array = s**3 * sum((4 + n) * c * s**n for n, c in enumerate(rest)) / h
+    return known + more
 
 
-def _rest(steps: _Steps) -> tuple[Array, Array, Array]:
-    """Return the coefficients of s³, s⁴ and s⁵ that lead to the end of the step, derived here."""
+def _rest(steps: _Steps) -> Array:
+    """Return the coefficients of s⁴ to s⁷ that lead to the end of the step, derived here."""
     h = steps.length
-    F, F1, G, G1 = (
-        h * steps.force,
-        h * steps.force_after,
-        h * h * steps.rate,
-        h * h * steps.rate_after,
+    F, G, H = h * steps.force, h**2 * steps.rate, h**3 * steps.bend
+    missing = (
+        steps.gained - F - G / 2.0 - H / 6.0,
+        h * steps.force_after - F - G - H / 2.0,
+        h**2 * steps.rate_after - G - H,
+        h**3 * steps.bend_after - H,
     )
-    impulse, force, rate = steps.gained - F - 0.5 * G, F1 - F - G, G1 - G
-    return (
-        10.0 * impulse - 4.0 * force + 0.5 * rate,
-        -15.0 * impulse + 7.0 * force - rate,
-        6.0 * impulse - 3.0 * force + 0.5 * rate,
-    )
+    rest: Array = np.tensordot(_TO_THE_END, missing, axes=1)
+    return rest
 
 
 def _largest_average(steps: _Steps, size: int, window: float) -> Array:
@@ -235,11 +242,15 @@ def _largest_average(steps: _Steps, size: int, window: float) -> Array:
     column, start = column[fits], start[fits]
     order = np.lexsort((start, column))
     column, start = column[order], start[order]
-    value, rate = average(column, start)
     found = np.full(size, -math.inf)
-    np.maximum.at(found, column, value)
-    turns = np.flatnonzero((column[1:] == column[:-1]) & (rate[:-1] > 0.0) & (rate[1:] < 0.0))
-    column, low, high = column[turns], start[turns], start[turns + 1]
+    np.maximum.at(found, column, average(column, start)[0])
+    # Where a stretch ends the force may jump.
+    same = np.flatnonzero(column[1:] == column[:-1])
+    column, low, high = column[same], start[same], start[same + 1]
+    rises = average(column, low + BESIDE * (high - low))[1] > 0.0
+    column, low, high = column[rises], low[rises], high[rises]
+    falls = average(column, high - BESIDE * (high - low))[1] < 0.0
+    column, low, high = column[falls], low[falls], high[falls]
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         value, rate = average(column, middle)

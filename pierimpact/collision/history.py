@@ -42,26 +42,6 @@ FRACTIONS = np.linspace(0.0, 1.0, 25)
 MOST_PIECES = 100_000  # numerical: with their samples they fill a gigabyte
 
 
-def hermite(time: Array, value: Array, rate: Array, at: ArrayLike) -> Array:
-    """Interpolate a motion between its samples by cubic Hermite polynomials.
-
-    Parameters
-    ----------
-    time, value, rate : ndarray, shape (n,)
-        Samples: times, in ascending order [s], values and their derivatives.
-    at : array_like
-        Times within those of the samples [s].
-    """
-    at = np.asarray(at, dtype=float)
-    after = np.clip(np.searchsorted(time, at), 1, len(time) - 1)
-    before = after - 1
-    length = time[after] - time[before]
-    s = (at - time[before]) / length
-    left = value[before] + s * (3.0 * s - 2.0 * s**2) * (value[after] - value[before])
-    turn = (1.0 - s) * rate[before] - s * rate[after]
-    return np.asarray(left + length * s * (1.0 - s) * turn)
-
-
 class Peak(NamedTuple):
     """A peak of the reaction.
 
@@ -249,27 +229,36 @@ class CollisionHistory:
     @cached_property
     def engine_force(self) -> Array:
         """Force F1 of spring 1, shape (n,) [N]."""
-        return self._flat(self._motion.intercept1 + self._motion.slope1 * self._series(ENGINE))
+        return self._flat(self._spring(ENGINE))
 
     @cached_property
     def body_force(self) -> Array:
         """Force F2 of spring 2, shape (n,) [N]."""
-        return self._flat(self._motion.intercept2 + self._motion.slope2 * self._series(BODY))
+        return self._flat(self._spring(BODY))
 
     @cached_property
     def friction_force(self) -> Array:
-        """Friction F_f against the body's motion, shape (n,) [N]."""
-        # Where the body sticks the friction is what holds it.
-        held_mass = self.truck.body_mass if self._friction_on_pier else 0.0
-        held = -self.body_force - held_mass * self._flat(self._series(PIER, order=2))
-        stuck = self._flat(self._column(lambda state: state.stuck) + 0.0 * self._fractions)
-        return self._flat(self._motion.friction + 0.0 * self._fractions) + stuck * held
+        """Friction F_f against the body's motion, shape (n,); where it jumps, the new value [N]."""
+        return self._flat(self._friction())
 
     @cached_property
     def contact_force(self) -> Array:
-        """Force of the truck on the pier, F1 + F2 (+ F_f if friction acts on the pier) [N]."""
-        force = self.engine_force + self.body_force
-        return force + self.friction_force if self._friction_on_pier else force
+        """Force of the truck on the pier, F1 + F2 (+ F_f if friction acts on the pier) [N].
+
+        Where it jumps, as friction does, the larger of both values.
+        """
+        return np.maximum(*self.contact_force_beside)
+
+    @cached_property
+    def contact_force_beside(self) -> tuple[Array, Array]:
+        """Contact force just before and just after each time, two of shape (n,) [N]."""
+        rows = self._spring(ENGINE) + self._spring(BODY)
+        if self._friction_on_pier:
+            rows = rows + self._friction()
+        after = self._flat(rows)
+        before = after.copy()
+        before[rows.shape[1] - 1 : -1 : rows.shape[1] - 1] = rows[:-1, -1]
+        return before, after
 
     def contact_force_at(self, time: ArrayLike) -> Array:
         """Return the contact force at times after first touch, from the pieces themselves [N].
@@ -453,6 +442,22 @@ class CollisionHistory:
         """Join rows that each count from the start of their piece."""
         before = np.concatenate(([0.0], np.cumsum(rows[:-1, -1])))
         return self._flat(before[:, None] + rows)
+
+    def _spring(self, which: int) -> Array:
+        """Return the force of a spring, shape (pieces, fractions)."""
+        motion = self._motion
+        intercept, slope = {
+            ENGINE: (motion.intercept1, motion.slope1),
+            BODY: (motion.intercept2, motion.slope2),
+        }[which]
+        return np.asarray(intercept + slope * self._series(which))
+
+    def _friction(self) -> Array:
+        """Return the friction on the body, shape (pieces, fractions)."""
+        # Where the body sticks the friction is what holds it.
+        held_mass = self.truck.body_mass if self._friction_on_pier else 0.0
+        held = -self._spring(BODY) - held_mass * self._series(PIER, order=2)
+        return np.asarray(self._motion.friction + self._column(lambda state: state.stuck) * held)
 
     def _largest_crush(self, which: int) -> Array:
         springs = (self.truck.engine_spring, self.truck.body_spring)
