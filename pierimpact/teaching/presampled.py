@@ -32,8 +32,9 @@ FILE = Path(__file__).with_name("presampled.json")
 #: The piers by their names, each with its frequency [Hz], and the mass of all [kg].
 PIERS = {"10 Hz": 10.0, "30 Hz": 30.0, "100 Hz": 100.0}
 PIER_MASS = 8e3
-#: Ends of mass [kg] and of speed at the pier [m/s], and the power of two of the number drawn.
-MASSES, SPEEDS, POWER = (LEAST_TRUCK, 60e3), (3.0 / 3.6, 130.0 / 3.6), 11
+#: Ends of mass [kg] and of speed at the pier [m/s], and the power of two of the number drawn. No
+#: truck of the fastest traffic that can be set is faster.
+MASSES, SPEEDS, POWER = (LEAST_TRUCK, 60e3), (3.0 / 3.6, 160.0 / 3.6), 12
 #: Of JCSS: standard deviation of masses [kg] and of speeds on the road [m/s], mean angle, and mean
 #: and standard deviation of the deceleration [m/s²].
 LAWS = {
@@ -156,7 +157,10 @@ def main() -> None:
     content = {
         "mass": [round(value) for value in own.mass.tolist()],
         "speed": [round(value, 3) for value in own.speed.tolist()],
-        "reaction": {name: [round(v, -2) for v in own.reaction[name].tolist()] for name in PIERS},
+        "reaction": {
+            name: [100 * round(value / 100.0) for value in own.reaction[name].tolist()]
+            for name in PIERS
+        },
         "engine": {name: own.engine[name].astype(int).tolist() for name in PIERS},
     }
     FILE.write_text(json.dumps(content, separators=(",", ":")) + "\n", encoding="utf-8")

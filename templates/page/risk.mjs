@@ -7,6 +7,7 @@ const YEARS = [1e2, 1e5]; // of the curve
 const POINTS = 120;
 const MASSES = [10e3, 20e3, 30e3, 40e3], SPEEDS = [30, 50, 70, 90]; // limits of the classes [kg], [km/h]
 const TXDOT = 1e-3; // hits a year
+const FEW = 10; // collisions below which a frequency is rough: in trials it was off by a factor of two, and more
 
 /** Values of a lognormal law with their weights, evenly in its logarithm. */
 function lognormal(mean, deviation, [reach, count]) {
@@ -81,6 +82,14 @@ function years(rate) {
   return `once in ${(Math.round(between / digits) * digits).toLocaleString("en-US").replaceAll(",", "\u202f")} years`;
 }
 
+/** How sure a frequency is, in a sentence: by how many of the collisions account for most of it. */
+function doubt(weights) {
+  const behind = sum(weights) ** 2 / sum(weights.map((weight) => weight * weight));
+  if (!(behind < FEW)) return "";
+  const few = Math.round(behind) === 1 ? "one" : `some ${Math.round(behind)}`;
+  return ` Only ${few} of the ${weights.length} collisions solved account for that: it is rough.`;
+}
+
 /** The shares of the weights in classes with these limits. */
 function classes(values, limits, weights) {
   const shares = Array(limits.length + 1).fill(0), all = sum(weights) || 1;
@@ -101,7 +110,7 @@ function bars(title, limits, unit, of, above, every) {
       name, bars: [{ value: some ? 100 * contribution[n] : null, style: "larger" }],
       words: some ? `${Math.round(100 * contribution[n])} %: ${Math.round(100 * hits[n])} % of hits` : "",
     })),
-    empty: some ? "" : "No truck exceeds the resistance.",
+    empty: some ? "" : "None of the collisions solved exceeds the resistance in this traffic.",
   };
 }
 
@@ -135,11 +144,12 @@ export function risk({ values, setup: { presampled } }) {
     ],
     facts: [
       ["Struck", years(hits), "trucks that reach the pier"],
-      ["Resistance exceeded", years(exceeded), "reactions above the resistance"],
+      ["Resistance exceeded", exceeded > 0 ? years(exceeded) : "by none of the collisions solved", "reactions above the resistance"],
       ["Once in 10 000 years", at(1e4), "reaction that is exceeded so often"],
     ],
     words: `The pier is struck ${years(hits)}, ${hits < TXDOT ? "less" : "more"} often than the 0.001 a year from which `
-      + `TxDOT asks for a check; its resistance is exceeded ${years(exceeded)}`
-      + (exceeded > 0 ? `, in ${Math.round(100 * byEngine)} % by the engine’s peak.` : "."),
+      + "TxDOT asks for a check; its resistance is exceeded "
+      + (exceeded > 0 ? `${years(exceeded)}, in ${Math.round(100 * byEngine)} % by the engine’s peak.${doubt(above)}`
+        : `by none of the ${mass.length} collisions solved.`),
   };
 }
