@@ -184,7 +184,11 @@ def test_bars_are_as_long_as_their_forces():
         remarks = [row["words"].partition(": ")[2] for row in chart["rows"][4:]]
         assert remarks == [code.along.remark for code in codes]
         long = reactions[-1]
-        assert f"The {long.governs} governs." in found["words"]
+        values = long.values
+        what = f"The {long.governs}"
+        if long.governs == "engine" and not (values["v1"] > 0.0 and long.engine > values["R0"]):
+            what = "Crumpling sheet metal"
+        assert f" {what} governs." in found["words"]
         ratio = long.reaction / scenario.history.governing_peak.reaction
         assert f"{ratio:.2f} times the full model" in found["words"]
         warnings = [f"{words}." for words in long.warnings]
@@ -196,6 +200,25 @@ def test_bars_are_as_long_as_their_forces():
 def plain(words):
     """Return a warning without the ways of writing its first letter and its number."""
     return re.sub(r"[\d.e+]+(?= \S+ is outside)", lambda n: f"{float(n[0]):.6g}", words.lower())
+
+
+@pytest.mark.parametrize("speed", [10.0, 40.0, 52.0])
+def test_where_the_engine_does_not_arrive_the_reaction_is_sheet_metals(speed):
+    slow = {"speed": speed * KMH}
+    assert Scenario(**slow).history.engine_contact_time is None
+    explorers = widgets.reduction(), widgets.design(), widgets.sensitivity()
+    reduced, designed, sensitive = (contents_of(each, slow)[0] for each in explorers)
+    assert "There is no engine peak: crumpling sheet metal makes the" in reduced["words"]
+    assert "There is no cargo peak." in reduced["words"]
+    assert [row[6:] for row in reduced["table"]["rows"]] == [["none", "none"]] * 2
+    assert "Crumpling sheet metal governs." in designed["words"]
+    assert designed["charts"][0]["rows"][0]["name"] == "Full model, sheet metal"
+    assert designed["facts"][1][0] == "Design, sheet metal"
+    assert "The reaction to crumpling sheet metal is most sensitive" in sensitive["words"]
+    assert sensitive["charts"][0]["title"] == sensitive["facts"][3][0] == "Sheet metal"
+    for found in (designed, sensitive):
+        assert "engine peak" not in found["words"]
+        assert "engine governs" not in found["words"]
 
 
 @pytest.mark.parametrize("speed", [45.0, 60.0, 80.0, 117.0])

@@ -1,7 +1,7 @@
 // Which parameters of the truck matter: the collision once more with one of them changed.
 import { force, hertz, number, roundUp } from "./chart.mjs";
 import { simulate } from "./model.mjs";
-import { firstPeak } from "./sentences.mjs";
+import { bySheetMetal, firstPeak } from "./sentences.mjs";
 import { pierAt } from "./spectrum.mjs";
 
 const BODIES = ["engine", "cargo"];
@@ -34,13 +34,16 @@ export function changes({ truck, frequency, pier, speed }, parameters, change) {
 export function influences({ collision, setup: { symbols, parameters, change } }) {
   const { truck, frequency, pier, speed } = collision;
   const found = changes(collision, parameters.map(({ path }) => path), change);
+  const outcome = simulate(truck, pierAt(frequency, pier), speed);
+  const first = bySheetMetal(outcome) ? "Sheet metal" : "Engine peak";
   const share = Math.round(100 * change), words = [];
   const charts = BODIES.map((body) => {
     const rows = found[body] ?? parameters.map(() => [null, null]);
     const widest = 100 * roundUp(Math.max(0.1, ...rows.flat().map((value) => 1.05 * Math.abs(value ?? 0))));
-    words.push(mostSensitive(body, found[body], parameters));
+    const peak = body === "engine" ? first : "Cargo peak";
+    words.push(mostSensitive(body, peak, found[body], parameters));
     return {
-      kind: "bars", title: `${body === "engine" ? "Engine" : "Cargo"} peak`,
+      kind: "bars", title: peak,
       x: { label: "Change of the peak", low: -widest, high: widest, unit: " %" },
       key: [{ name: `−${share} %`, style: "smaller" }, { name: `+${share} %`, style: "larger" }],
       rows: rows.map((row, n) => ({
@@ -51,7 +54,6 @@ export function influences({ collision, setup: { symbols, parameters, change } }
       empty: found[body] ? "" : `The ${body} does not reach the pier.`,
     };
   });
-  const outcome = simulate(truck, pierAt(frequency, pier), speed);
   return {
     charts,
     facts: [
@@ -65,10 +67,11 @@ export function influences({ collision, setup: { symbols, parameters, change } }
   };
 }
 
-function mostSensitive(body, rows, parameters) {
+function mostSensitive(body, peak, rows, parameters) {
   if (!rows) return `The ${body} does not reach the pier: there is no peak to change.`;
   const largest = rows.map((row) => Math.max(...row.map((value) => (value === null ? Infinity : Math.abs(value)))));
   const most = Math.max(...largest), { meaning } = parameters[largest.indexOf(most)];
   const how = most === Infinity ? "disappears" : `changes by ${Math.round(100 * most)} %`;
-  return `The ${body} peak is most sensitive to the ${meaning}: it ${how}.`;
+  const which = peak === "Sheet metal" ? "reaction to crumpling sheet metal" : peak.toLowerCase();
+  return `The ${which} is most sensitive to the ${meaning}: it ${how}.`;
 }

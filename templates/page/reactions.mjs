@@ -3,6 +3,7 @@ import { force, hertz, roundUp } from "./chart.mjs";
 import { simulate } from "./model.mjs";
 import { long, short } from "./procedure.mjs";
 import { symbolsOf } from "./scenario.mjs";
+import { bySheetMetal } from "./sentences.mjs";
 import { pierAt } from "./spectrum.mjs";
 
 /** A sentence for each value that is outside the domain, and one where both blows overlap. */
@@ -27,7 +28,9 @@ export function reactions({ collision, setup: { symbols, codes, domain } }) {
   const full = Math.max(outcome.engine, outcome.cargo ?? 0);
   const levels = { short: short(given), long: long(given) };
   const larger = ({ R1, R2 }) => (R2 > R1 ? R2 : R1);
-  const bars = ["engine", "cargo"].map((body) => ({ name: `Full model, ${body}`, value: outcome[body], style: body }));
+  const first = bySheetMetal(outcome) ? "sheet metal" : "engine";
+  const bars = ["engine", "cargo"].map((body) =>
+    ({ name: `Full model, ${body === "engine" ? first : body}`, value: outcome[body], style: body }));
   for (const [level, found] of Object.entries(levels)) {
     const value = larger(found);
     bars.push({ name: `Design procedure, ${level}`, value, style: "design", remark: `${(value / full).toFixed(2)} × full model` });
@@ -40,7 +43,8 @@ export function reactions({ collision, setup: { symbols, codes, domain } }) {
     const words = value === null ? "none" : force(value);
     return { name, bars: [{ value: value && value / 1e6, style }], words: remark ? `${words}: ${remark}` : words };
   });
-  const { R1, R2 } = levels.long, design = larger(levels.long);
+  const { R0, R1, R2, v1 } = levels.long, design = larger(levels.long);
+  const struck = v1 > 0 && R1 > R0; // by the engine, harder than sheet metal has pushed before
   const none = (value) => (Number.isNaN(value) ? "none" : force(value));
   return {
     charts: [{
@@ -49,11 +53,11 @@ export function reactions({ collision, setup: { symbols, codes, domain } }) {
     }],
     facts: [
       [symbols.fp, hertz(frequency), "natural frequency of the pier"],
-      ["Design, engine", force(R1), "long level"], ["Design, cargo", none(R2), "long level"],
+      [`Design, ${struck ? "engine" : "sheet metal"}`, force(R1), "long level"], ["Design, cargo", none(R2), "long level"],
       ["Design reaction", force(design), "the larger of the two"],
     ],
     words: `Design reaction ${force(design)}, ${(design / full).toFixed(2)} times the full model’s. `
-      + `The ${design === R1 ? "engine" : "cargo"} governs.`,
+      + (design !== R1 ? "The cargo governs." : struck ? "The engine governs." : "Crumpling sheet metal governs."),
     warnings: warnings(given, levels.long, frequency, domain),
   };
 }

@@ -3,6 +3,7 @@ import { force, roundUp } from "./chart.mjs";
 import { simulate } from "./model.mjs";
 import { amplification, short } from "./procedure.mjs";
 import { symbolsOf } from "./scenario.mjs";
+import { bySheetMetal } from "./sentences.mjs";
 import { pierAt, refine } from "./spectrum.mjs";
 
 const LOW = 0.02, HIGH = 50; // frequency ratios on show
@@ -56,7 +57,7 @@ export function reduction({ collision }) {
   const exact = (beta, mu, e) => [NaN, exactAmplification(beta, mu, e, zeta)];
   const found = short({ ...symbolsOf(collision), spectrum: exact });
   const outcome = simulate(truck, pierAt(frequency, pier), speed);
-  const charts = [], rows = [], words = [];
+  const sheetMetal = bySheetMetal(outcome), charts = [], rows = [], words = [];
   BODIES.forEach((body, n) => {
     const [beta, mu, e, S, v, R] = ["beta", "mu", "e", "S", "v", "R"].map((name) => found[`${name}${n + 1}`]);
     const { ratios, exact: line } = curve(mu, e, zeta), arrives = v > 0;
@@ -73,11 +74,12 @@ export function reduction({ collision }) {
       ].map((each) => ({ ...each, x: ratios })),
       here: { x: beta, y: S, words: `S = ${S.toFixed(3)}`, style: body },
     });
-    const peak = body === "engine" || arrives ? outcome[body] : null;
-    const reduced = Number.isNaN(R) ? "none" : force(R);
+    const peak = arrives && !(body === "engine" && sheetMetal) ? outcome[body] : null;
+    const reduced = arrives ? force(R) : "none";
     rows.push([body, `${v.toFixed(2)} m/s`, ...[beta, mu, e, S].map((each) => each.toFixed(3)), reduced, peak === null ? "none" : force(peak)]);
-    words.push(Number.isNaN(R) || peak === null
-      ? `There is no ${body} peak.`
+    const instead = body === "engine" && sheetMetal ? `: crumpling sheet metal makes the reaction, ${force(outcome.engine)}` : "";
+    words.push(!arrives || peak === null
+      ? `There is no ${body} peak${instead}.`
       : `For the ${body} S = ${S.toFixed(3)}, and the reaction is ${(R / peak).toFixed(2)} times the full model’s.`);
   });
   const heads = ["body", "contact speed", "β", "μ", "e", "S", "two degrees of freedom", "full model"];

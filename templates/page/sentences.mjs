@@ -31,10 +31,14 @@ export function sentence(frequency, outcome) {
     + `${least}’s ${force(less)}.`;
 }
 
+/** Whether crumpling sheet metal makes the first of the two peaks: the engine does not arrive, or after it. */
+export function bySheetMetal({ engineContact, engineTime }) {
+  return engineContact === null || engineContact > engineTime;
+}
+
 /** What the first of the two peaks is a peak of. */
 export function firstPeak(outcome) {
-  const { engineContact, engineTime } = outcome;
-  if (engineContact === null || engineContact > engineTime) return "Sheet metal";
+  if (bySheetMetal(outcome)) return "Sheet metal";
   return isEnginePeak(outcome) ? "Engine’s peak" : "Until cargo hits";
 }
 
