@@ -141,6 +141,17 @@ def test_every_declared_mistake_gets_its_own_hint(lesson, number):
 
 
 @pytest.mark.parametrize(("lesson", "number"), ALL)
+def test_no_mistake_passes_as_right_for_any_of_many_students(lesson, number):
+    """Nor within half the tolerance beside it, for a student may have rounded."""
+    ask = LESSONS[lesson].questions[number - 1]
+    for index in range(1500):
+        question = ask(Numbers(str(index), f"{lesson} {number}"))
+        for value, hint in question.mistakes:
+            off = abs(value / question.answer - 1.0)
+            assert off > 1.5 * question.tolerance, (question.words, hint)
+
+
+@pytest.mark.parametrize(("lesson", "number"), ALL)
 def test_no_hint_gives_the_answer_away_or_lets_one_bisect(lesson, number):
     for question in everyones(lesson, number):
         if question.choices:

@@ -62,8 +62,8 @@ def _departures(numbers: Numbers) -> Question:
 
 
 def _arrival(numbers: Numbers) -> Question:
-    kmh, braking = numbers.between(80, 100, 5), numbers.between(3, 4)
-    way = numbers.between(30, 50, 5)
+    kmh, braking = numbers.between(90, 110, 5), numbers.between(3, 4)
+    way = numbers.between(55, 70, 5)  # so long that v − a s/v is not nearly right
 
     def left(speed: float = kmh * KMH, energy: float = 2.0) -> float:
         return math.sqrt(speed**2 - energy * braking * way)
