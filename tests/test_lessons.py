@@ -268,3 +268,16 @@ def test_spectra_claims():
     governs = peaks.engine > peaks.cargo
     assert np.abs(np.diff(governs.astype(int))).sum() == 1
     assert governs[-1]
+
+
+def test_the_stiffness_of_a_spring_counts_on_a_soft_pier_through_the_rebound():
+    reason = questions("limits")[0].reason
+    assert (
+        "counts only through the rebound, e = √(k/k_u), and moves the peak by a few per" in reason
+    )
+    for hertz in (4.0, 7.0, 10.0):
+        before, unloading = on_a_pier(hertz), EXAMPLE.engine_unloading_stiffness
+        stiffer = {"engine_stiffness": 1.5 * before.engine_stiffness}
+        assert 1.01 < growth(before, on_a_pier(hertz, **stiffer))["engine"] < 1.03
+        stiffer["engine_unloading_stiffness"] = 1.5 * unloading  # and no other rebound
+        assert growth(before, on_a_pier(hertz, **stiffer))["engine"] == pytest.approx(1.0, abs=2e-3)

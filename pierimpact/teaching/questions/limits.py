@@ -48,8 +48,8 @@ def _uncertain(numbers: Numbers) -> Question:
         ),
         start="Only k changes, and it stands under a root.",
         solution=f"√(1 + {percent / 100:g}) = {answer:.4g}",
-        reason="The root halves small errors of the stiffness; on a soft pier k does not count at "
-        "all.",
+        reason="The root halves small errors of the stiffness; on a soft pier k counts only "
+        "through the rebound, e = √(k/k_u), and moves the peak by a few per cent.",
     )
 
 
