@@ -261,7 +261,8 @@ def test_hints(given, said):
         ("2.5 kg", "This is a mass; the answer is a force."),
         ("2.5 MJ", "This is an energy; the answer is a force."),
         ("2.5 kNm", "This is a moment; the answer is a force."),
-        ("2.5 foo", "'foo' is not a unit"),
+        ("2.5 foo", "'foo' is not a unit that is known here; try kN, MN, lbf, kip."),
+        ("2.5 mn", "try kN, MN, lbf, kip; did you mean MN?"),
         ("much", "Type a number and a unit, such as kN"),
         ("nan kN", "is not one"),
         ("1e999 kN", "too large for a number"),
@@ -275,6 +276,13 @@ def test_what_is_no_answer_does_not_count_as_one(given, said):
     assert verdict.right is None
     assert said in verdict.words
     assert "Traceback" not in verdict.words
+
+
+def test_a_unit_that_is_nearly_one_is_refused_with_the_one_that_may_be_meant():
+    speed = Question(words="?", dimension="speed", answer=56.1 * KMH, solution="")
+    verdict = check(speed, "56.1 kmh")
+    assert verdict.right is None
+    assert verdict.words.endswith("try km/h, m/s, mph; did you mean km/h?")
 
 
 @pytest.mark.parametrize(

@@ -113,7 +113,7 @@ def check(question: Question, given: str) -> Verdict:
     try:
         found = readings(given, question.dimension)
     except InputError as error:
-        return Verdict(None, f"{error}.")
+        return Verdict(None, f"{error}{'' if str(error).endswith('?') else '.'}")
     # Where a number can be read in two ways, the one that makes more sense was meant.
     ranked = [(*_judge(question, question.answer, reading.value), reading) for reading in found]
     _, verdict, reading = min(ranked, key=lambda judged: judged[0])

@@ -4,7 +4,7 @@ import math
 import re
 from typing import NamedTuple
 
-from pierimpact.checks import InputError, brief
+from pierimpact.checks import InputError, brief, did_you_mean
 from pierimpact.units import DIMENSIONS, parse
 
 
@@ -76,8 +76,11 @@ def _size(unit: str, dimension: str) -> float:
     except InputError as error:
         kinds = [kind for kind in DIMENSIONS if _is(spelt, kind)]
         if not kinds:
-            raise InputError(f"{brief(unit)} is not a unit that is known here; try "
-                             f"{DIMENSIONS[dimension].units}") from error  # fmt: skip
+            known = DIMENSIONS[dimension].units
+            meant = did_you_mean(unit, known.split(", "))
+            raise InputError(
+                f"{brief(unit)} is not a unit that is known here; try {known}{meant}"
+            ) from error
         # Joules and newton metres have the same dimension, but not the same meaning.
         kind = "energy" if "energy" in kinds and "J" in unit else kinds[0]
         raise InputError(
