@@ -324,6 +324,47 @@ def test_of_two_files_of_a_lesson_the_one_with_more_work_counts(tmp_path):
     ]
 
 
+def test_students_without_a_name_are_told_apart_by_folder_and_file(tmp_path):
+    """What a learning platform puts before the name of a file is whose it is."""
+    given = {
+        "01_collision.answers.json": "1 m",
+        "Meier_01_collision.answers.json": "2 m",
+        "Meier_02_pier.answers.json": "1 MN/m",
+        "a/01_collision.answers.json": "3 m",
+    }
+    (tmp_path / "a").mkdir()
+    for name, text in given.items():
+        lesson = "pier" if "pier" in name else "collision"
+        (tmp_path / name).write_text(Work(lesson, answers={1: [text]}).written(), encoding="utf-8")
+    marks = collect(tmp_path)
+    assert marks.remarks == []
+    rows = {(row["name"], row["folder"]): row for row in table(marks.table)}
+    assert set(rows) == {("", "."), ("Meier", "."), ("", "a")}
+    tries = [
+        [row[f"{lesson} 1 tries"] for lesson in ("collision", "pier")] for row in rows.values()
+    ]
+    assert sorted(tries) == [["1", ""], ["1", ""], ["1", "1"]]
+
+
+def test_a_second_file_without_a_name_is_not_said_to_be_the_same_students(tmp_path):
+    for name in ("01_collision.answers.json", "01_collision.answers (1).json"):
+        (tmp_path / name).write_text(Work("collision", answers={1: ["1 m"]}).written())
+    marks = collect(tmp_path)
+    assert marks.students == 1
+    [remark] = marks.remarks
+    assert remark.endswith("has as much work of a student without a name, taken for the same")
+
+
+@pytest.mark.parametrize("content", ["[]", "{}", "3", '"x"', entry(answers=None), entry(name=3)])
+def test_what_is_no_answer_file_is_said_plainly(tmp_path, content):
+    (tmp_path / "x.answers.json").write_text(content)
+    (tmp_path / file_name("pier")).write_text(Work("pier", "Anna").written())
+    [remark] = collect(tmp_path).remarks
+    assert remark.partition(": ")[2] == (
+        "it is no answer file: it is not of the form that notebooks write"
+    )
+
+
 def test_scores_that_were_edited_do_not_count(tmp_path):
     made = json.loads(Work("pier", "Anna", answers={1: ["1 MN/m"]}).written())
     made["scores"]["1"]["right"] = True

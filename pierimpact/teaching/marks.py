@@ -10,7 +10,7 @@ import pierimpact
 from pierimpact.checks import InputError, no_formula
 from pierimpact.teaching.numbers import same_name
 from pierimpact.teaching.questions import LESSONS
-from pierimpact.teaching.work import ENDING, Work, read_work
+from pierimpact.teaching.work import ENDING, Work, file_name, read_work
 
 
 class Marks(NamedTuple):
@@ -26,7 +26,8 @@ def collect(folder: str | Path) -> Marks:
     """Return the marks in a folder and all folders below it, a row a student.
 
     Students are told apart by the names or numbers that they gave; capitals and needless spaces do
-    not count. Answers are checked again, whatever scores a file has.
+    not count. Without one the files of a folder with the same words before their names are one
+    student's, who goes by those words. Answers are checked again, whatever scores a file has.
 
     Parameters
     ----------
@@ -59,8 +60,7 @@ def collect(folder: str | Path) -> Marks:
                 f"{path}: answered with pierimpact {work.version}, checked by "
                 f"{pierimpact.__version__}"
             )
-        # Without a name, the files of one folder are one student's.
-        student = same_name(work.name) or f"\n{path.parent}"
+        student = same_name(work.name) or f"\n{path.parent / _before(work, path)}"
         remarks += _take(found.setdefault(student, {}), work, path)
     if not read:
         why = f"; {remarks[0]}" if remarks else f": there is no file named *{ENDING}"
@@ -74,10 +74,16 @@ def _take(works: dict[str, tuple[Work, Path]], work: Work, path: Path) -> list[s
     other = works.setdefault(work.lesson, (work, path))
     if other[1] == path:
         return []
+    whose = "the same student" if work.name else "a student without a name, taken for the same"
     if _size(work) > _size(other[0]):
         works[work.lesson] = (work, path)
-        return [f"{other[1]}: not used, for {path} has more of the same student's answers"]
-    return [f"{path}: not used, for {other[1]} has as much of the same student's work"]
+        return [f"{other[1]}: not used, for {path} has more work of {whose}"]
+    return [f"{path}: not used, for {other[1]} has as much work of {whose}"]
+
+
+def _before(work: Work, path: Path) -> str:
+    """Return what stands before the name of a lesson's file, such as "Meier_"."""
+    return path.name.partition(Path(file_name(work.lesson)).stem)[0]
 
 
 def _size(work: Work) -> int:
@@ -109,7 +115,8 @@ def _row(works: dict[str, tuple[Work, Path]], folder: Path) -> list[str | int]:
         for score in work.scores:
             cells += [int(score.right) if score.tries else "", score.tries]
     work, path = next(iter(works.values()))
-    return [work.name, str(path.parent.relative_to(folder)), right, asked, came_true, *cells]
+    name = work.name or _before(work, path).strip(" _-")
+    return [name, str(path.parent.relative_to(folder)), right, asked, came_true, *cells]
 
 
 def _csv(rows: Iterable[list[str | int]]) -> str:

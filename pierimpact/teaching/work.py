@@ -120,8 +120,10 @@ def read_work(path: Path) -> Work:
         return _checked(content)
     except InputError:
         raise
-    except (KeyError, TypeError, AttributeError, ValueError) as error:
-        raise InputError(f"it is damaged: {brief(str(error))}") from None
+    except (KeyError, TypeError, AttributeError, ValueError):
+        raise InputError(
+            "it is no answer file: it is not of the form that notebooks write"
+        ) from None
 
 
 def _checked(content: Mapping[str, Any]) -> Work:
@@ -137,7 +139,7 @@ def _checked(content: Mapping[str, Any]) -> Work:
 
 def _texts(given: object) -> list[str]:
     if not isinstance(given, list) or not all(isinstance(text, str) for text in given):
-        raise TypeError(f"answers must be a list of texts, got {given!r}")
+        raise InputError(f"its answers to a question must be a list of texts, got {brief(given)}")
     return given
 
 
