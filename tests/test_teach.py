@@ -1,3 +1,4 @@
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -63,3 +64,10 @@ def test_the_command_says_what_is_missing(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(teach, "find_spec", lambda module: None)
     assert cli.main(["teach", "--folder", str(tmp_path)]) == 1
     assert capsys.readouterr().err.startswith("pierimpact: the notebooks need jupyterlab: ")
+
+
+def test_the_guide_counts_the_lessons_that_are_copied(tmp_path):
+    teach.copy_notebooks(tmp_path)
+    assert len(list(tmp_path.glob("0*.ipynb"))) == 7
+    guide = (Path(__file__).parents[1] / "docs" / "how-to" / "teach.md").read_text(encoding="utf-8")
+    assert "Seven lessons go from one collision to the risk from traffic" in guide
