@@ -526,6 +526,17 @@ done([count, found]);
 """
 
 
+def still(opened, folder, explorer, width=1240):
+    """Open what stands for an explorer of a notebook in its frame."""
+    page = folder / "still.html"
+    inside = html.unescape(re.search('srcdoc="([^"]*)"', explorer.still)[1])
+    page.write_text(inside, encoding="utf-8")
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    opened.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    opened.driver.get(page.as_uri())
+    opened.until(lambda: opened.all("svg[role=img] text"))
+
+
 STILL = """
 for (const slider of document.querySelectorAll(".slider input[type=range]")) {
   const before = slider.value;
@@ -557,21 +568,51 @@ done([count, found]);
 @pytest.mark.parametrize("name", EXPLORERS)
 def test_labels_keep_clear_of_each_other_in_a_still(opened, tmp_path, name):
     explorer = getattr(widgets, name)()
-    page = tmp_path / "still.html"
-    inside = html.unescape(re.search('srcdoc="([^"]*)"', explorer.still)[1])
-    page.write_text(inside, encoding="utf-8")
     numbers = [name for name in explorer.controls if not VARIABLES[name].choices]
     opened.driver.set_script_timeout(PATIENCE)
     head = LABELS.partition("for (const truck")[0]
     program = f"const run = async (...arguments) => {{ {head}{STILL} }}; run(...arguments)"
     for width in (400, 850, 1240):
-        size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
-        opened.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-        opened.driver.get(page.as_uri())
-        opened.until(lambda: opened.all("svg[role=img] text"))
+        still(opened, tmp_path, explorer, width)
         outcome = opened.driver.execute_async_script(program)
         assert outcome == [3 * len(numbers), []]
     assert opened.errors() == []
+
+
+AXIS = """
+const ticks = document.querySelectorAll("[id$=chart] .tick[text-anchor=middle]");
+return [ticks[0], [...ticks].at(-1)].map((tick) => Number(tick.textContent));
+"""
+MOVE = """
+const [name, share, done] = arguments, slider = document.querySelector(`[id$=${name}]`);
+slider.value = share * slider.max;
+slider.dispatchEvent(new Event("input"));
+requestAnimationFrame(() => requestAnimationFrame(done));
+"""
+
+
+@pytest.mark.parametrize("explorer", ["page", "spectra"])
+def test_spectra_end_where_the_slider_does_wherever_it_was_before(opened, tmp_path, explorer):
+    if explorer == "page":
+        opened.load()
+        opened.skip()
+        ends = [5.0, 180.0]
+    else:
+        still(opened, tmp_path, widgets.spectra())
+        ends = [2.0, 200.0]
+    for frequency in (1.0, 0.0):
+        opened.driver.execute_async_script(MOVE, "pier_frequency", frequency)
+        for speed in (0.6, 0.5):
+            opened.driver.execute_async_script(MOVE, "speed", speed)
+            assert opened.run(AXIS) == ends
+
+
+def test_spectra_reach_a_pier_that_is_typed_and_come_back(opened, tmp_path):
+    still(opened, tmp_path, widgets.spectra())
+    (box,) = opened.all("[id$=pier_frequency-value]")
+    for typed, ends in (("300", [2.0, 400.0]), ("1.2", [0.5, 200.0]), ("30", [2.0, 200.0])):
+        box.send_keys("\ue009a\ue000", typed, "\ue007")  # in place of what there is
+        opened.until(lambda ends=ends: opened.run(AXIS) == ends)
 
 
 @pytest.mark.parametrize("width", [320, 400, 1280])

@@ -178,9 +178,10 @@ export class Explorer {
 
   #otherPier() {
     if (!this.#accepted()) return;
-    const { low, high } = this.shown?.range ?? {};
-    const { frequency } = this.collision;
-    if (this.setup.spectra && (frequency < low || frequency > high)) return void this.#otherTruck();
+    if (this.setup.spectra) {
+      const range = rangeWith(this.collision.frequency, this.setup.range), { low, high } = this.shown?.range ?? {};
+      if (range.low !== low || range.high !== high) return void this.#otherTruck();
+    }
     this.#follow();
     this.#showHere();
     this.#showCollision();
@@ -224,9 +225,7 @@ export class Explorer {
   #renewSpectra() {
     clearTimeout(this.refining);
     if (!this.setup.spectra) return;
-    const now = this.collision, { frequency } = now;
-    const low = Math.min(this.setup.range.low, frequency / 1.2), high = Math.max(this.setup.range.high, 1.2 * frequency);
-    const range = { low: low < this.setup.range.low ? Number(low.toPrecision(1)) / 2 : low, high: high > this.setup.range.high ? roundUp(high) : high };
+    const now = this.collision, range = rangeWith(now.frequency, this.setup.range);
     this.shown = framed(coarseSpectrum(range, COARSE, now), now, range);
     const points = this.shown.points.slice(), refinement = refine(points, (each) => pointAt(each, now));
     const slice = () => {
@@ -382,6 +381,14 @@ export class Explorer {
     if (start) this.playing = requestAnimationFrame(picture);
     this.$("play").textContent = start ? "Pause" : "Play";
   }
+}
+
+/** The range of the axis of frequencies [Hz]: wider than the slider's only for a pier outside of it. */
+function rangeWith(frequency, { low, high }) {
+  return {
+    low: frequency < low ? Number((frequency / 1.2).toPrecision(1)) / 2 : low,
+    high: frequency > high ? roundUp(1.2 * frequency) : high,
+  };
 }
 
 /** Spectra with the ends of the axes, which do not depend on the pier. */
