@@ -645,6 +645,16 @@ def test_a_prediction_locks_before_the_lines_are_shown_and_is_remembered(opened)
     assert opened.all("#gate input")[3].is_enabled()
 
 
+def test_what_a_prediction_came_to_goes_when_it_is_asked_again(opened):
+    opened.load()
+    introduction = opened.text("#lead")
+    opened.all("#gate input")[3].click()
+    opened.one("#gate .main").click()
+    assert opened.text("#lead") != introduction
+    opened.one("#again").click()
+    assert opened.text("#lead") == introduction
+
+
 def test_the_other_predictions_have_the_packages_answers(opened):
     opened.load()
     opened.skip()

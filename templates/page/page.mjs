@@ -10,6 +10,7 @@ const { range } = setup, first = setup.values;
 const COARSE = 33; // points of a spectrum that is only asked for its crossing
 
 const $ = (id) => document.getElementById(id);
+const introduction = [...$("lead").childNodes];
 const explorer = new Explorer($("explorer"), { ...setup, truck: trucks[0] });
 
 $("controls").prepend($("truck-choice"));
@@ -50,9 +51,8 @@ const { startAgain } = predictions(asked, {
   key: `pierimpact page, ${trucks[0].name}`,
   reveal(revealed, words) {
     explorer.reveal(revealed);
-    if (!words) return;
-    $("lead").replaceChildren(...words);
-    $("lead").focus({ preventScroll: true });
+    $("lead").replaceChildren(...(words ?? introduction));
+    if (words) $("lead").focus({ preventScroll: true });
   },
   show({ frequency, mass, moment }) {
     const { pier_frequency: slider } = explorer.controls;
