@@ -487,8 +487,17 @@ function collisions() {
   for (const svg of document.querySelectorAll("svg")) {
     const room = svg.getBoundingClientRect();
     const labels = [...svg.querySelectorAll("text")].map((each) =>
-      [each.textContent, each.getBoundingClientRect()]);
-    labels.forEach(([words, a], n) => {
+      [each.textContent, each.getBoundingClientRect(),
+        parseFloat(getComputedStyle(each).fontSize) * each.getScreenCTM().a]);
+    for (const line of svg.querySelectorAll("line.curve")) {
+      const { left, right, top } = line.getBoundingClientRect();
+      for (const [words, a] of labels) {
+        const struck = Math.min(right, a.right) - Math.max(left, a.left) > 1;
+        if (struck && a.top < top && top < a.bottom) found.push(`a line on ${words}`);
+      }
+    }
+    labels.forEach(([words, a, size], n) => {
+      if (size && size < 8) found.push(`${words} is too small`);
       if (a.left < room.left - 1 || a.right > room.right + 1) found.push(`${words} is cut`);
       for (const [others, b] of labels.slice(0, n)) {
         const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
@@ -497,6 +506,8 @@ function collisions() {
       }
     });
   }
+  const beyond = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+  if (beyond > 0) found.push(`${beyond} px beyond the window`);
   return found;
 }
 function move(id, share) {
@@ -615,7 +626,7 @@ def test_spectra_reach_a_pier_that_is_typed_and_come_back(opened, tmp_path):
         opened.until(lambda ends=ends: opened.run(AXIS) == ends)
 
 
-@pytest.mark.parametrize("width", [320, 400, 1280])
+@pytest.mark.parametrize("width", [320, 400, 800, 960, 1280])
 def test_labels_keep_clear_of_each_other_at_the_ends_of_all_sliders(opened, width):
     opened.load(width, 800)
     opened.skip()
