@@ -15,13 +15,15 @@ import numpy as np
 import pytest
 from generated_collisions import HARD, collisions, side_by_side
 from in_node import in_node
+from nbformat import v4
 
-from pierimpact import cli, load_truck, peak_reactions, simulate, widgets
+from pierimpact import cli, load_truck, peak_reactions, simulate, tables, widgets
 from pierimpact.checks import InputError
 from pierimpact.collision.parameters import Collision
 from pierimpact.files.trucks import read_truck_file, truck_names
 from pierimpact.pier.equivalent import EquivalentPier, stiffness_at_frequency
 from pierimpact.pier.unit_force import BY_ENDS
+from pierimpact.report.exporters import SheetHTMLExporter
 from pierimpact.teaching import page as pages
 from pierimpact.teaching.scenario import Scenario
 from pierimpact.teaching.variables import VARIABLES
@@ -588,6 +590,60 @@ def test_labels_keep_clear_of_each_other_in_a_still(opened, tmp_path, name):
         outcome = opened.driver.execute_async_script(program)
         assert outcome == [3 * len(numbers), []]
     assert opened.errors() == []
+
+
+CONTENT = """
+const [done] = arguments, heights = [];
+const picture = () => new Promise(requestAnimationFrame);
+const drawn = async (slider, value) => {
+  slider.value = value;
+  slider.dispatchEvent(new Event("input"));
+  await picture();
+  await picture();
+  heights.push(document.documentElement.scrollHeight);
+};
+(async () => {
+  for (const slider of document.querySelectorAll(".slider input[type=range]")) {
+    const before = slider.value;
+    for (const value of [0, slider.max, before]) await drawn(slider, value);
+  }
+  done(Math.max(...heights) - innerHeight);
+})();
+"""
+
+
+@pytest.mark.parametrize("name", EXPLORERS)
+def test_the_frame_of_a_still_holds_all_that_is_in_it(opened, tmp_path, name):
+    page = tmp_path / "page.html"
+    still = f'<!doctype html><body style="margin: 0">{getattr(widgets, name)().still}</body>'
+    page.write_text(still, encoding="utf-8")
+    hidden = {}
+    for width in (345, 737, 785, 976, 1240):
+        size = {"width": width, "height": 3000, "deviceScaleFactor": 1, "mobile": False}
+        opened.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        opened.driver.get(page.as_uri())
+        opened.driver.switch_to.frame(opened.one("iframe"))
+        opened.until(lambda: opened.all("svg[role=img] text"))
+        hidden[width] = opened.driver.execute_async_script(CONTENT)
+        opened.driver.switch_to.default_content()
+    assert max(hidden.values()) <= 0, hidden
+
+
+def test_tables_and_formulas_of_a_lesson_do_not_widen_its_page(opened, tmp_path):
+    shown = [tables.truck_parameters("single-unit-8t"), tables.code_values()]
+    outputs = [v4.new_output("display_data", {"text/html": each.data}) for each in shown]
+    formula = f"$$v_1^2 = {' + '.join(['V^2'] * 20)}$$"
+    cells = [v4.new_markdown_cell(f"# Lesson\n\n{formula}"), v4.new_code_cell(outputs=outputs)]
+    content, _ = SheetHTMLExporter().from_notebook_node(v4.new_notebook(cells=cells))
+    page = tmp_path / "lesson.html"
+    page.write_text(content, encoding="utf-8")
+    size = {"width": 400, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    opened.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    opened.driver.get(page.as_uri())
+    assert opened.run("return document.documentElement.scrollWidth") <= 400
+    scrolled = "return arguments[0].scrollWidth > arguments[0].clientWidth"
+    wide = opened.all("main > p:has(math), .table")
+    assert [opened.run(scrolled, each) for each in wide] == [True, True, True]
 
 
 AXIS = """

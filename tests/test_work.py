@@ -210,7 +210,7 @@ def test_what_is_written_is_read_back(desk, lesson, name, texts, choice):
 
 def test_an_explorer_shows_after_the_prediction_and_says_what_came_of_it(desk):
     for lesson, known in LESSONS.items():
-        explorer = Explorer(title="", controls=["speed"])
+        explorer = Explorer(title="", controls=["speed"], heights=(90, 45, 45))
         box, shown = predictions.ask(lesson), predictions.reveal(lesson, explorer)
         box.lock()
         assert "Choose first" in box.message.value

@@ -55,12 +55,12 @@ class Explorer:
         Caption of the still.
     controls : list of str
         Names of the variables on show beside the charts, of `pierimpact.teaching.variables`.
+    heights : tuple of int
+        Of the frame of the still in a narrow, a middling and a wide page [rem].
     drawers : mapping of str to sequence of str, optional
         Names of more of them, by the titles of the drawers below.
     defaults : Scenario, optional
         Values to begin with.
-    height : int, optional
-        Of the frame of the still [rem].
     **setup
         What else the browser has to know: see the modules.
     """
@@ -70,12 +70,12 @@ class Explorer:
         *,
         title: str,
         controls: Sequence[str],
+        heights: tuple[int, int, int],
         drawers: Mapping[str, Sequence[str]] | None = None,
         defaults: Scenario | None = None,
-        height: int = 46,
         **setup: Any,
     ) -> None:
-        self.title, self.height = title, height
+        self.title, self.heights = title, heights
         self.defaults = defaults or Scenario()
         drawers = {name: list(names) for name, names in (drawers or {}).items()}
         above = setup.get("above", [])
@@ -120,7 +120,7 @@ class Explorer:
     def still(self) -> str:
         """The explorer as HTML that needs nothing else, not even a kernel."""
         setup = self._setup | {"values": self._setup["defaults"]}
-        return still(_frame(setup, self.title, self.height))
+        return still(_frame(setup, self.title, self.heights))
 
     def _ipython_display_(self) -> None:
         show(self.widget, self.still, self.title)
@@ -165,7 +165,7 @@ class CollisionExplorer(Explorer):
         self.widget.copied = []
 
 
-def _frame(setup: Mapping[str, Any], title: str, height: int) -> str:
+def _frame(setup: Mapping[str, Any], title: str, heights: tuple[int, int, int]) -> str:
     """Return an explorer as a page in a frame."""
     data = json.dumps(setup).replace("<", "\\u003c")
     start = f"widgetModule.explore(document.getElementById('explorer'), {data});"
@@ -176,8 +176,10 @@ def _frame(setup: Mapping[str, Any], title: str, height: int) -> str:
         f'</style></head><body><main id="explorer"></main><script type="module">{_script()}{start}'
         "</script></body></html>"
     )
+    narrow, middling, wide = heights
+    size = f"--narrow:{narrow}rem;--middling:{middling}rem;--wide:{wide}rem"
     return (
         f'<figure style="margin:0"><iframe title="{html.escape(title)}" sandbox="allow-scripts" '
-        f'style="width:100%;height:{height}rem;border:0" srcdoc="{html.escape(page)}"></iframe>'
+        f'style="width:100%;border:0;{size}" srcdoc="{html.escape(page)}"></iframe>'
         f"<figcaption>{html.escape(title)}. {_WITH_PYTHON}</figcaption></figure>"
     )

@@ -24,7 +24,8 @@ FRAME = f"3px solid {style.GREY}"
 # Voilà that is the widgets, in JupyterLab too as long as they have their kernel. A notebook opened
 # again has none, but a word of JupyterLab on what is missing, which bears no type as other outputs
 # do: the still shows instead. In a page made from the notebook, where widgets are dead, it does,
-# too. A frame does not see JupyterLab's theme, but takes the colour scheme of its element.
+# too. A frame does not see JupyterLab's theme, but takes the colour scheme of its element; nor does
+# it grow with what is in it, but has a height for each of three widths.
 _LIVE, _STILL = "pierimpact-live", "pierimpact-still"
 _LIVES = f":has(.{_LIVE}:not(.jupyter-widgets-disconnected))"
 _STYLE = (
@@ -34,7 +35,11 @@ _STYLE = (
     ".jp-OutputArea-output:not([data-mime-type]) {display:none} "
     f"body.jp-Notebook:not([data-voila]) .{_LIVE} {{display:none}} "
     f".{_STILL} iframe {{color-scheme:light}} "
-    f"[data-jp-theme-light=false] .{_STILL} iframe {{color-scheme:dark}}</style>"
+    f"[data-jp-theme-light=false] .{_STILL} iframe {{color-scheme:dark}} "
+    f".{_STILL} figure {{container-type:inline-size}} "
+    f".{_STILL} iframe {{height:var(--narrow)}} "
+    f"@container (min-width:47rem) {{.{_STILL} iframe {{height:var(--middling)}}}} "
+    f"@container (min-width:60rem) {{.{_STILL} iframe {{height:var(--wide)}}}}</style>"
 )
 
 
@@ -84,7 +89,7 @@ def table(
     right: Sequence[int] = (),
     colours: Sequence[str] = (),
 ) -> str:
-    """Return a table of plain text.
+    """Return a table of plain text, which is scrolled by itself where it is too wide.
 
     Parameters
     ----------
@@ -114,8 +119,8 @@ def table(
         cells = "".join(cell("td", column, words) for column, words in enumerate(others, 1))
         body += f"<tr>{cell('th', 0, first, css)}{cells}</tr>"
     return (
-        f'<table style="border-collapse:collapse"><thead><tr style="color:{MUTED}">{head}</tr>'
-        f"</thead><tbody>{body}</tbody></table>"
+        '<div class="table" style="overflow-x:auto"><table style="border-collapse:collapse">'
+        f'<thead><tr style="color:{MUTED}">{head}</tr></thead><tbody>{body}</tbody></table></div>'
     )
 
 

@@ -32,6 +32,7 @@ def collision() -> Explorer:
     return CollisionExplorer(
         title="A collision in slow motion, with its forces and its energy",
         controls=[*_TRUCK, *_COLUMN],
+        heights=(90, 45, 45),
         spectra=False,
         energy=True,
     )
@@ -60,6 +61,7 @@ def full() -> Explorer:
         title="A collision, its forces and energy, and its position on the spectra",
         above=["pier_frequency"],
         controls=[*_TRUCK, "pier_mass", "damping_ratio"],
+        heights=(124, 67, 67),
         drawers={
             "The pier as a column": [*_COLUMN[:-1], "impact_height"],
             "The truck’s crush laws": list(CRUSH),
@@ -67,7 +69,6 @@ def full() -> Explorer:
         spectra=True,
         energy=True,
         copies=True,
-        height=62,
     )
 
 
@@ -93,6 +94,7 @@ def spectra() -> Explorer:
         title="A collision and its position on the spectra of engine and cargo",
         above=["pier_frequency"],
         controls=["pier_mass", "damping_ratio", *_TRUCK],
+        heights=(98, 55, 55),
         spectra=True,
         energy=False,
         defaults=EXAMPLE,
@@ -120,7 +122,7 @@ def pier() -> Explorer:
     return Explorer(
         title="The shape function, and the pier’s stiffness and mass against the impact height",
         controls=["impact_height", "column_diameter", "column_height", "base", "top"],
-        height=36,
+        heights=(92, 66, 46),
         kind="shape",
         symbols=browser.symbols_data("kp", "mp", "fp"),
     )
@@ -145,8 +147,8 @@ def reduction() -> Explorer:
     return Explorer(
         title="The amplification of engine and cargo against the frequency ratio",
         controls=[*_PIER, *_TRUCK],
+        heights=(79, 51, 32),
         defaults=EXAMPLE,
-        height=36,
         kind="reduction",
     )
 
@@ -171,7 +173,7 @@ def design() -> Explorer:
     return Explorer(
         title="Design reaction, full model and code forces",
         controls=[*_TRUCK, *_COLUMN, "impact_height"],
-        height=36,
+        heights=(90, 50, 44),
         kind="reactions",
         symbols=browser.symbols_data("fp"),
         codes=browser.codes_data(),
@@ -199,7 +201,7 @@ def sensitivity() -> Explorer:
     return Explorer(
         title="Sensitivity of either peak to the parameters of the truck",
         controls=[*_TRUCK, *_COLUMN],
-        height=52,
+        heights=(87, 53, 52),
         kind="influences",
         symbols=browser.symbols_data("fp", "kp", "mp"),
         parameters=browser.parameters_data(),
@@ -232,7 +234,7 @@ def risk() -> Explorer:
             *("traffic_volume", "truck_share", "distance_from_road", "mean_mass", "mean_speed"),
             *("resistance", "risk_pier"),
         ],
-        height=40,
+        heights=(96, 58, 40),
         kind="risk",
         presampled=presampled.data(),
     )
