@@ -498,6 +498,11 @@ function collisions() {
         if (struck && a.top < top && top < a.bottom) found.push(`a line on ${words}`);
       }
     }
+    const pier = svg.querySelector("rect.pier")?.getBoundingClientRect();
+    for (const [words, a] of pier ? labels : []) {
+      const over = Math.min(a.right, pier.right) - Math.max(a.left, pier.left);
+      if (words.startsWith("R =") && over > 0) found.push(`${words} on the pier`);
+    }
     labels.forEach(([words, a, size], n) => {
       if (size && size < 8) found.push(`${words} is too small`);
       if (a.left < room.left - 1 || a.right > room.right + 1) found.push(`${words} is cut`);
@@ -770,3 +775,15 @@ def test_the_picture_moves_and_can_be_scrubbed(opened):
     opened.all("#moments button")[3].click()
     assert "the cargo is in contact" in opened.text("#picture-words")
     assert "R = 4.88 MN" in opened.text("#picture")
+
+
+def test_a_picture_says_where_the_pier_moves_farther_than_it_shows(opened):
+    opened.load()
+    opened.skip()
+    assert "10 × too large, time" in opened.text("#picture-scale")
+    for name, share in (("truck_mass", 1.0), ("speed", 1.0), ("pier_frequency", 0.0)):
+        opened.driver.execute_async_script(MOVE, name, share)
+    pier = EquivalentPier.from_frequency(PIER["mass"], RANGE["low"], PIER["dampingRatio"])
+    peaks = peaks_at(load_truck("single-unit-8t").loaded_to(12e3), RANGE["low"], 120.0 / 3.6)
+    assert 10.0 * peaks.cargo / pier.stiffness > 8.0  # of 7.7 m
+    assert "too large (here more than there is room for)" in opened.text("#picture-scale")

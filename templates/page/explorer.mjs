@@ -2,7 +2,7 @@
 import { MARGIN, drawEnergy, drawHere, drawHistory, drawInstant, drawSpectrum, fit, force, hertz, number, roundUp } from "./chart.mjs";
 import { Control, button, make } from "./controls.mjs";
 import { energyShares, follow } from "./history.mjs";
-import { EXAGGERATION, drawPicture } from "./picture.mjs";
+import { EXAGGERATION, drawPicture, isBeyond } from "./picture.mjs";
 import { collisionOf, pierFrom, refusal } from "./scenario.mjs";
 import { answer, firstPeak, phase, sentence } from "./sentences.mjs";
 import { bandsOf, coarseSpectrum, isEnginePeak, pierAt, pointAt, refine } from "./spectrum.mjs";
@@ -37,7 +37,7 @@ const skeleton = (id) => `
 <section class="collision" aria-label="The collision in slow motion">
   <figure>
     <svg class="picture" id="${id}picture" role="img" aria-labelledby="${id}picture-words"></svg>
-    <figcaption><span id="${id}picture-words"></span> <span class="quiet">Pier’s movement ${EXAGGERATION} × too large, time ${SLOWER} × too slow.</span></figcaption>
+    <figcaption><span id="${id}picture-words"></span> <span class="quiet" id="${id}picture-scale"></span></figcaption>
   </figure>
   <figure>
     <svg class="history" id="${id}history" role="img" aria-labelledby="${id}history-words"></svg>
@@ -338,6 +338,8 @@ export class Explorer {
     this.$("instant-value").textContent = `${ms} ms`;
     this.$("instant").setAttribute("aria-valuetext", `${ms} milliseconds`);
     this.$("picture-words").textContent = `${ms} ms: ${phase(now, history.outcome)}`;
+    this.$("picture-scale").textContent = `Pier’s movement ${EXAGGERATION} × too large`
+      + `${isBeyond(now) ? " (here more than there is room for)" : ""}, time ${SLOWER} × too slow.`;
   }
 
   // The player

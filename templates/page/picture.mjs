@@ -9,6 +9,12 @@ const RIGHT = 10.2, BOTTOM = -0.8, TOP = 4.4;
 const WALL = 9.9, PIER = 1.4, DECK = 3.95, PAD = 0.12;
 const BOX = 4.6, BOX_BOTTOM = 1.2, BOX_TOP = 3.3, ENGINE = 1.0, WHEEL = 0.44, ARROW = 3.4;
 const ENGINE_HEIGHT = 0.88, BODY_HEIGHT = 2.1, PIER_SPRING = 1.2;
+const FARTHEST = WALL - PIER - 0.8; // where the face of the pier is drawn at most
+
+/** Whether the pier has moved farther than the picture can show. */
+export function isBeyond({ xp }) {
+  return EXAGGERATION * xp > FARTHEST;
+}
 
 /**
  * Draw one instant.
@@ -20,7 +26,7 @@ export function drawPicture(svg, { truck, now, frequency, top }) {
   const d1 = truck.engine.plateauLength, d2 = truck.body.plateauLength;
   const left = -(d2 + BOX + 0.9);
   svg.setAttribute("viewBox", `${left} ${-TOP} ${RIGHT - left} ${TOP - BOTTOM}`);
-  const face = Math.min(EXAGGERATION * now.xp, WALL - PIER - 0.8);
+  const face = Math.min(EXAGGERATION * now.xp, FARTHEST);
   const crush1 = now.x1 - now.xp, crush2 = now.x2 - now.xp;
   const engineFront = face - gap(d1, crush1), boxFront = face - gap(d2, crush2);
   // What has been crushed does not stretch again: after the rebound there is a gap.
@@ -49,7 +55,7 @@ export function drawPicture(svg, { truck, now, frequency, top }) {
     box(engineFront - ENGINE, 0.5, ENGINE, 0.68, "engine-box", 0.08),
     zigzag(engineFront, engineTip, ENGINE_HEIGHT, 0.17, 7, "engine", now.F1 > 0 ? 3 : 1.6),
     label(`engine ${kmh(now.v1)}`, Math.min(engineFront, -0.8), -0.64, "engine small", "end"),
-    ...arrow(face + PIER, now.R, top),
+    ...arrow(face, now.R, top),
   );
 }
 
@@ -107,11 +113,11 @@ function cab(rear, nose, whole) {
   return element("g", {}, polygon(outline.map(place), "cab"), polygon(window.map(place), "glass"));
 }
 
-/** The reaction as an arrow that holds against the pier, to scale. */
+/** The reaction as an arrow that holds against the pier, to scale; its value where there is room. */
 function arrow(face, reaction, top) {
   const z = 2.75, length = (ARROW * Math.abs(reaction)) / top;
-  const tip = Math.min(face + 0.12, RIGHT - length - 0.2);
-  const [place, anchor] = tip < RIGHT - 6 ? [tip, "start"] : [RIGHT - 0.2, "end"];
+  const tip = Math.min(face + PIER + 0.12, RIGHT - length - 0.2);
+  const [place, anchor] = tip < RIGHT - 6 ? [tip, "start"] : [face - 0.2, "end"];
   const words = label(`R = ${force(reaction)}`, place, 3.44, "reaction", anchor);
   if (length < 0.05) return [words];
   const [end, start] = reaction > 0 ? [tip, tip + length] : [tip + length, tip];
