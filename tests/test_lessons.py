@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from in_node import contents_of
+from in_node import contents_of, in_node
 from reference import solve
+from test_page import as_arguments
 
 from pierimpact import EquivalentPier, load_truck, peak_reactions
 from pierimpact.design.band import one_at_a_time
@@ -82,6 +83,17 @@ def test_the_predictions_come_true():
     spreads = dict.fromkeys(QUANTITIES, Uniform.about(0.3))
     changed = np.abs(one_at_a_time(default.collision, spreads).engine - found.engine).max(axis=1)
     assert QUANTITIES[int(changed.argmax())] == "engine_mass"
+
+
+def test_what_stands_for_an_engine_peak_is_named_as_the_explorer_names_it():
+    slow, soft, usual = Scenario(speed=40.0 * KMH), on_a_pier(3.0), Scenario()
+    given = [as_arguments(each.collision) for each in (slow, soft, usual)]
+    program = "cases.map((each) => sentencesModule.firstPeak(simulate(...each)))"
+    names = in_node(program, given)
+    assert names == ["Sheet metal", "Until cargo hits", "Engine’s peak"]
+    metal, rising, _ = (name.lower() for name in names)
+    words = "in its place the explorer then gives the largest reaction to"
+    says("collision", f"there is no engine peak: {words} *{metal}*, or that *{rising}*.")
 
 
 EXPLORERS = {name: name for name in LESSONS} | {"limits": "sensitivity"}
