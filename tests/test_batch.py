@@ -397,6 +397,7 @@ def test_the_worst_case_stands_first(example):
         checks = draw.sample(("shear", "moment"), draw.randint(0, 2))
         values = {
             "utilisations": {check: draw.uniform(0.2, 1.8) for check in checks},
+            "upper_utilisations": {},
             "code_ratio": draw.choice([None, draw.uniform(0.1, 3.0)]),
             "design_reaction": draw.uniform(1e6, 2e7),
         }
@@ -454,6 +455,45 @@ def test_the_summary_leads_with_how_many_are_not_as_they_should_be(example):
         ("Without a report", "0", "every case has its report"),
     ]
     assert len(headline_of(quiet)) == 5
+
+
+def test_what_holds_but_not_for_every_truck_is_counted_and_ranked_apart(example):
+    def row(name, ratio, at_upper):
+        ratios = {"utilisations": {"shear": ratio}, "upper_utilisations": {"shear": at_upper}}
+        return Row(name, faked(example, **ratios), [])
+
+    rows = [row("kept", 0.95, 0.99), row("over", 1.01, 1.2), row("upper", 0.9, 1.06)]
+    page = page_of(rows)
+    assert ranked_in(page) == ["over", "upper", "kept"]
+    strong = re.findall(r'<tr class="strong">\s*<th[^>]*><a[^>]*>([^<]*)</a>', page)
+    assert set(strong) == {"over"}
+    table = page.partition('id="tab-results"')[2].partition("</table>")[0]
+    verdicts = ["exceeded", "exceeded at 95 %", "kept"]
+    assert [found[-3] for found in rows_of(table)[1:]] == verdicts
+    in_csv = csv.DictReader(io.StringIO(summary_csv(rows), newline=""))
+    assert {line["case"]: line["resistance"] for line in in_csv} == dict(
+        zip(("over", "upper", "kept"), verdicts, strict=True)
+    )
+    assert headline_of(rows)[1:3] == [
+        ("Exceed a resistance", "1", "largest utilisation 1.01: over, in shear"),
+        ("Exceed one at 95 % only", "1", "1.06: upper, in shear"),
+    ]
+
+
+def test_the_summary_says_at_95_percent_what_the_sheets_say(tmp_path):
+    path = write_case(tmp_path / "P.yaml", shear_resistance="8 MN", moment_resistance="9 MN*m")
+    results = results_of(path)
+    assert max(results.utilisations.values()) < 1.0 < max(results.upper_utilisations.values())
+    (line,) = csv.DictReader(io.StringIO(summary_csv([Row("P", results, [])]), newline=""))
+    assert line["resistance"] == "exceeded at 95 %"
+
+
+def test_a_given_value_in_another_unit_has_the_figures_of_the_csv(example):
+    rows = [Row("P", faked(example, speed=60.0 * 0.44704), [])]
+    table = page_of(rows).partition('id="tab-cases"')[2].partition("</table>")[0]
+    (line,) = csv.DictReader(io.StringIO(summary_csv(rows), newline=""))
+    assert line["speed [km/h]"] == "96.561"
+    assert "96.561" in rows_of(table)[1]
 
 
 def test_the_summary_has_the_date_of_the_last_revision(example):

@@ -27,6 +27,7 @@ from pierimpact.files.case import (
 from pierimpact.files.inputs import KEYS, PHYSICAL_KEYS, Inputs
 from pierimpact.report.calculation import calculate
 from pierimpact.report.results import Results
+from pierimpact.report.sheet import Sheet
 from pierimpact.report.summary import column_in_words
 from pierimpact.report.write import report_notebook
 
@@ -177,6 +178,25 @@ def test_what_the_summary_says_of_a_section():
             calculate(case_from(OTHER | SECTIONS[shape] | {"column_shape": shape}))
         )
         assert column_in_words(results, "SI") == words
+
+
+def test_what_the_summary_says_of_steps_springs_and_a_cap():
+    asked = {"base": "free", "base_stiffness": "800 MN/m", "base_rotation_stiffness": "9 GN*m/rad"}
+    asked |= {"top": "free", "top_mass": "150 t", "embedment": "1.5 m"}
+    step = {"height": "3 m", "column_shape": "circular", "column_diameter": "0.6 m"}
+    results = Results.of(calculate(case_from(CASE | asked | {"steps": [step]})))
+    assert column_in_words(results, "SI") == (
+        "circular 0.9144 m, stepped at 3 m, 5 m high, embedded 1.5 m, base on springs, top free, "
+        "150 000 kg on it"
+    ).replace("150 000", "150\u202f000")
+
+
+def test_the_table_of_inputs_says_that_an_end_is_on_springs():
+    springs = {"base_rotation_stiffness": "9000 MN*m/rad"}
+    rows = {row[0]: row[2:] for row in Sheet(case_from(CASE | springs)).inputs.case_table().rows}
+    base, top = rows["Base of the column"], rows["Top of the column"]
+    assert base == ["on springs", "", "given", "case file; given as fixed"]
+    assert top == ["pinned", "", "given", "case file"]
 
 
 @pytest.mark.parametrize(

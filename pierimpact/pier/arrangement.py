@@ -36,6 +36,15 @@ class Support(NamedTuple):
     stiffness: float  #: lateral [N/m]
     rotation_stiffness: float  #: [N m/rad]
 
+    @property
+    def kind(self) -> str:
+        """What holds the end in a word or two."""
+        if 0.0 < self.stiffness < math.inf or 0.0 < self.rotation_stiffness < math.inf:
+            return "on springs"
+        if self.stiffness == 0.0:
+            return "free" if self.rotation_stiffness == 0.0 else "held in rotation"
+        return "pinned" if self.rotation_stiffness == 0.0 else "fixed"
+
     def work(self, force: float, moment: float) -> float:
         """Return the work R²/k + M²/k_θ that its springs take up, twice their energy [J]."""
         actions = ((force, self.stiffness), (moment, self.rotation_stiffness))

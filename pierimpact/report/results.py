@@ -6,6 +6,7 @@ from typing import Any, Self
 from pydantic import BaseModel, ConfigDict
 
 from pierimpact.report.calculation import Calculation
+from pierimpact.report.outcome import upper_utilisations
 from pierimpact.report.warnings import warnings_of
 from pierimpact.symbols import SYMBOLS
 
@@ -32,9 +33,12 @@ class Results(BaseModel):
 
     column_shape: str
     column_sizes: tuple[float, ...]  #: diameter, or width and depth, and the like [m]
+    step_heights: tuple[float, ...]  #: at which the section changes [m]
     column_height: float
-    base: str
+    embedment: float | None  #: as given; None where the column is not embedded [m]
+    base: str  #: what holds it: "fixed", "pinned", "free", "on springs" …
     top: str
+    top_mass: float | None
     truck: str  #: its name
     truck_mass: float
     speed: float
@@ -58,6 +62,7 @@ class Results(BaseModel):
     #: None where the collision is over sooner.
     code_ratio: float | None
     utilisations: dict[str, float]  #: by "shear" and "moment", where there is a resistance
+    upper_utilisations: dict[str, float]  #: the same at the band's upper end; empty without a band
     warnings: tuple[str, ...]  #: what is least safe first
 
     @classmethod
@@ -73,6 +78,9 @@ class Results(BaseModel):
                 for name, symbol in section.dimensions.items()
                 if SYMBOLS[symbol].quantity == "section length"
             ),
+            "step_heights": tuple(step.height for step in case.column.steps),
+            "base": case.column.supports[0].kind,
+            "top": case.column.supports[1].kind,
             "truck": case.truck.name,
             "truck_mass": case.truck.mass,
             "impact_height": calculation.struck.impact_height,
@@ -91,6 +99,7 @@ class Results(BaseModel):
             "moment_method": moment.method,
             "code_ratio": calculation.code_ratio,
             "utilisations": calculation.utilisations,
+            "upper_utilisations": upper_utilisations(calculation),
             "warnings": tuple(warnings_of(calculation)),
         }
         return cls.model_validate(case.inputs.model_dump() | calculated)

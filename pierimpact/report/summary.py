@@ -2,7 +2,7 @@
 
 import csv
 import io
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import pierimpact
@@ -24,6 +24,9 @@ from pierimpact.units import (
 
 UNKNOWN = "—"  # instead of what a case does not give
 EXCEEDED = "exceeded"
+AT_UPPER = "exceeded at 95 %"  # kept, but not at the upper end of the band
+#: What comes of the resistances of a case, the worst last; the first where it gives none.
+VERDICTS = (None, "kept", AT_UPPER, EXCEEDED)
 
 
 class Row(NamedTuple):
@@ -65,6 +68,9 @@ class _Column(NamedTuple):
             return compared(value)
         if not self.quantity:
             return str(value)
+        if self.given:  # in another unit it has no more than five figures
+            size = unit_size(self.quantity, system)
+            value = float(f"{value / size:.5g}") * size
         return printed(value, self.quantity, system, given=self.given).number
 
     def field(self, value: Any, system: str) -> Any:
@@ -164,8 +170,9 @@ def summary_blocks(rows: Sequence[Row]) -> list[Block]:
 
 
 _RESULTS_CAPTION = (
-    "Results, the worst case first: by the larger utilisation and, of cases without a resistance, "
-    "by the code ratio. Design reaction, with the reactions that 5 and 95 % of trucks of the given "
+    "Results, the worst case first: those that exceed a resistance, then those that do so at the "
+    "upper end of the band; by the larger utilisation and, of cases without a resistance, by the "
+    "code ratio. Design reaction, with the reactions that 5 and 95 % of trucks of the given "
     "spread stay below; largest shear ",
     *(Tex("V"), " and moment ", Tex("M"), " anywhere on the column, by the column as a beam or "),
     *("under the static reaction, and over their resistances ", Tex(r"V_\mathrm{R}"), " and "),
@@ -179,10 +186,11 @@ _CASES_CAPTION = (
 )
 
 
-def _weight(result: Results) -> tuple[float, float, float]:
+def _weight(result: Results) -> tuple[float, float, float, float]:
     """Return what a case is ranked by, the worst largest."""
-    utilisation = max(result.utilisations.values(), default=-1.0)  # below any, numerical
-    return utilisation, result.code_ratio or 0.0, result.design_reaction
+    utilisation = max(result.utilisations.values(), default=0.0)
+    verdict = VERDICTS.index(_verdict(result))
+    return verdict, utilisation, result.code_ratio or 0.0, result.design_reaction
 
 
 def _shown(results: Iterable[Results]) -> list[_Column]:
@@ -266,22 +274,28 @@ def _title_block(results: Sequence[Results], system: str) -> Block:
 def _headline(rows: Sequence[Row], system: str) -> Block:
     """Return how many cases there are, how many are not as they should be, and the worst."""
     results = _calculated(rows)
-    ratios = [
-        (ratio, name, check)
+    verdicts = [_verdict(result) for result in results.values()]
+    at_upper = {
+        name: result.upper_utilisations
         for name, result in results.items()
-        for check, ratio in result.utilisations.items()
-    ]
-    exceeding = {name for ratio, name, _ in ratios if ratio > 1.0}
-    worst = "no case gives a resistance"
-    if ratios:
-        ratio, name, check = max(ratios)
-        worst = f"largest utilisation {compared(ratio)}: {name}, in {check}"
+        if _verdict(result) == AT_UPPER
+    }
+    worst = _worst({name: result.utilisations for name, result in results.items()})
     warned = sum(bool(_warnings(row)) for row in rows if row.results is not None)
     strongest = max(results, key=lambda name: results[name].design_reaction)
     failed = len(rows) - len(results)
     counts = (
         ("Cases", len(rows), f"{len(results)} calculated"),
-        ("Exceed a resistance", len(exceeding), worst),
+        (
+            "Exceed a resistance",
+            verdicts.count(EXCEEDED),
+            f"largest utilisation {worst}" if worst else "no case gives a resistance",
+        ),
+        *(
+            [("Exceed one at 95 % only", len(at_upper), _worst(at_upper) or "of those that hold")]
+            if any(result.upper_utilisations for result in results.values())
+            else []
+        ),
         ("Without a report", failed, "reasons below" if failed else "every case has its report"),
         ("With warnings", warned, f"of {len(results)} calculated"),
     )
@@ -294,6 +308,19 @@ def _headline(rows: Sequence[Row], system: str) -> Block:
         remark = f"{name}; 25 ms average over AASHTO LRFD"
         entries.append(("Largest code ratio", Printed(rounded(code, 3), ""), remark))
     return Headline(results=entries)
+
+
+def _worst(utilisations: Mapping[str, Mapping[str, float]]) -> str:
+    """Return the largest utilisation, by the names of cases, with its case; "" of none."""
+    ratios = [
+        (ratio, name, check)
+        for name, of_case in utilisations.items()
+        for check, ratio in of_case.items()
+    ]
+    if not ratios:
+        return ""
+    ratio, name, check = max(ratios)
+    return f"{compared(ratio)}: {name}, in {check}"
 
 
 def _table(
@@ -347,7 +374,9 @@ def _verdict(result: Results) -> str | None:
     """Return what comes of the resistances that a case gives."""
     if not result.utilisations:
         return None
-    return EXCEEDED if max(result.utilisations.values()) > 1.0 else "kept"
+    if max(result.utilisations.values()) > 1.0:
+        return EXCEEDED
+    return AT_UPPER if max(result.upper_utilisations.values(), default=0.0) > 1.0 else "kept"
 
 
 def column_in_words(result: Results, system: str) -> str:
@@ -356,8 +385,22 @@ def column_in_words(result: Results, system: str) -> str:
     section = result.column_shape
     if sizes:
         section += f" {' × '.join(size.number for size in sizes)} {sizes[0].unit}"
-    height = printed(result.column_height, "length", system, given=True)
-    return f"{section}, {height} high, base {result.base}, top {result.top}"
+
+    def shown(value: float, quantity: str) -> str:
+        return str(printed(value, quantity, system, given=True))
+
+    steps = " and ".join(shown(height, "length") for height in result.step_heights)
+    return ", ".join(
+        [
+            section,
+            *([f"stepped at {steps}"] if steps else []),
+            f"{shown(result.column_height, 'length')} high",
+            *([f"embedded {shown(result.embedment, 'length')}"] if result.embedment else []),
+            f"base {result.base}",
+            f"top {result.top}",
+            *([f"{shown(result.top_mass, 'mass')} on it"] if result.top_mass else []),
+        ]
+    )
 
 
 def _warnings(row: Row) -> list[str]:

@@ -73,6 +73,9 @@ class Inputs(Section):
             status = "given"
         if value == "auto":
             value = "both, of the rule"
+        if key in ("base", "top"):
+            value = case.column.supports[key == "top"].kind
+            source += "" if value == case.given[key] else f"; given as {case.given[key]}"
         source += self._as_given(symbol, value, case.given.get(key))
         return self._row(symbol, value, status, source)
 
