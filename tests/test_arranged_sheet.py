@@ -11,6 +11,7 @@ from pierimpact import InputError
 from pierimpact.files.case import case_from
 from pierimpact.report.sheet import Sheet
 from pierimpact.report.warnings import warnings_of
+from pierimpact.units import compared
 
 CASE = {
     "column_shape": "hollow circular",
@@ -159,6 +160,47 @@ def test_the_page_says_which_method_governs(sheet):
     assert "The column as a beam takes" in page
     assert "column as a beam" in page
     assert "The column as a beam takes" not in page_of(CASE | {"member_forces": "static"})
+
+
+def test_a_case_that_chose_the_smaller_member_forces_is_told_so():
+    case = {
+        **{"column_shape": "circular", "column_diameter": "1.2 m", "column_height": "6 m"},
+        **{"concrete_strength": "30 MPa", "density": "2400 kg/m^3", "base": "fixed"},
+        **{"top": "fixed", "truck": "single-unit-8t", "speed": "80 km/h"},
+        **{"impact_height": "1.2 m", "moment_resistance": "7 MN*m"},
+    }
+
+    def calculated(**values):
+        return Sheet(case_from(case | values)).calculation
+
+    larger = calculated()
+    beam, static = (larger.demands["shear"].beam, larger.demands["shear"].static)
+    assert static > beam
+    resistance = {"shear_resistance": f"{0.5 * (static + beam) / 1e3} kN"}
+    asked = Sheet(case_from(case | resistance | {"member_forces": "beam"}))
+    assert asked.calculation.utilisations["shear"] < 1.0
+    first = asked.first_page.warnings().body[0]
+    of_static = static / asked.calculation.resistances["shear"]
+    assert first.startswith(
+        "The case chose the smaller member forces, those of the column as a bea"
+    )
+    assert f"{compared(static / beam)} times the shear" in first
+    assert f"a utilisation of {compared(of_static)} in shear" in first
+    assert of_static > 1.0
+    bare = calculated(member_forces="beam", shear_resistance=None, moment_resistance=None)
+    assert "utilisation" not in warnings_of(bare)[0]
+    for other in ("larger", "static"):
+        found = warnings_of(calculated(**resistance, member_forces=other))
+        assert not any(line.startswith("The case chose") for line in found)
+
+
+@pytest.mark.parametrize(
+    ("asked", "head"), [("larger", "Governs"), ("beam", "Checked by"), ("static", "Checked by")]
+)
+def test_the_method_is_said_to_govern_only_where_it_does(asked, head):
+    table = Sheet(case_from(CASE | {"member_forces": asked})).first_page.utilisations()
+    assert table.columns[3].heading == head
+    assert ("that governs" in table.caption) == (asked == "larger")
 
 
 @pytest.mark.parametrize(

@@ -269,14 +269,18 @@ class Calculation:
         return effects
 
     @property
+    def resistances(self) -> dict[str, float]:
+        """The resistances that the case gives, to "shear" [N] and "moment" [N m]."""
+        inputs = self.case.inputs
+        both = {"shear": inputs.shear_resistance, "moment": inputs.moment_resistance}
+        return {name: value for name, value in both.items() if value is not None}
+
+    @property
     def utilisations(self) -> dict[str, float]:
         """Demand over resistance, "shear" and "moment", where the case gives a resistance [-]."""
-        inputs = self.case.inputs
-        resistances = {"shear": inputs.shear_resistance, "moment": inputs.moment_resistance}
         return {
             name: self.demands[name].value / resistance
-            for name, resistance in resistances.items()
-            if resistance is not None
+            for name, resistance in self.resistances.items()
         }
 
     def to_dataframe(self) -> Any:

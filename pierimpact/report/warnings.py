@@ -20,6 +20,7 @@ def warnings_of(calculation: Calculation) -> list[str]:
     """
     return [
         *_exceeded(calculation),
+        *_smaller_asked(calculation),
         *_too_low(calculation),
         *_another_truck(calculation),
         *_unusual(calculation),
@@ -32,6 +33,25 @@ def _exceeded(calculation: Calculation) -> Iterator[str]:
     for name, ratio in calculation.utilisations.items():
         if ratio > 1.0:
             yield f"The {name} is {compared(ratio)} times the resistance."
+
+
+def _smaller_asked(calculation: Calculation) -> Iterator[str]:
+    """Yield where the case asks for the column as a beam, and the static reaction gives more."""
+    resistances = calculation.resistances
+    more = {
+        name: (demand.ratio, demand.static / resistances.get(name, math.inf))
+        for name, demand in calculation.demands.items()
+        if demand.asked == "beam" and demand.ratio is not None and demand.ratio > 1.0
+    }
+    if not more:
+        return
+    times = " and ".join(f"{compared(ratio)} times the {name}" for name, (ratio, _) in more.items())
+    checked = [f"{compared(of)} in {name}" for name, (_, of) in more.items() if name in resistances]
+    utilisation = f", a utilisation of {' and '.join(checked)}" if checked else ""
+    yield (
+        "The case chose the smaller member forces, those of the column as a beam: the static "
+        f"reaction gives {times}{utilisation}."
+    )
 
 
 def _too_low(calculation: Calculation) -> Iterator[str]:

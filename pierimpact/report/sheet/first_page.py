@@ -89,6 +89,7 @@ class FirstPage(Section):
         upper = upper_utilisations(result)
         if not result.utilisations:
             return None
+        larger = inputs.member_forces == "larger"
         rows: list[list[Inline]] = []
         resistances = (inputs.shear_resistance, inputs.moment_resistance)
         for (name, quantity), resistance in zip(DEMANDS.items(), resistances, strict=True):
@@ -114,13 +115,14 @@ class FirstPage(Section):
             )
         return Table(
             label="tab-utilisation",
-            caption="Largest member force over its resistance, by the method that governs; and at "
-            "the upper end of the band, in proportion to the reaction.",
+            caption="Largest member force over its resistance, by the method that "
+            f"{'governs' if larger else 'the case asks for'}; and at the upper end of the band, in "
+            "proportion to the reaction.",
             columns=columns(
                 "Check",
                 decimal("Static"),
                 decimal("Beam"),
-                "Governs",
+                "Governs" if larger else "Checked by",
                 decimal("Resistance"),
                 decimal("Utilisation"),
                 decimal("at 95 %"),
