@@ -9,9 +9,11 @@ from sheet_page import US_CASE
 from pierimpact.certainty import Certainty
 from pierimpact.design.codes import aashto_lrfd, aashto_lrfd_former, code_forces
 from pierimpact.files.case import case_from
+from pierimpact.report.outcome import first_results
 from pierimpact.report.sheet import Sheet
 from pierimpact.report.sheet.sensitivity import Sensitivities
 from pierimpact.report.warnings import limits_of_the_study
+from pierimpact.units import rounded, stated
 
 PSI = 0.45359237 * 9.80665 / 0.0254**2
 
@@ -90,3 +92,21 @@ def test_a_converted_parameter_of_the_truck_says_what_it_was(sheet):
     rows = {row[0]: row[-1] for row in sheet.inputs.truck_table().rows}
     assert rows["Engine mass"].endswith("; given as 700 kg")
     assert "given as" not in rows["Mass of body and cargo"]  # from the case
+
+
+def test_the_sentences_on_the_beam_are_of_the_largest_over_both_heights():
+    # A cantilever with a cap, whose moment is the largest at the height with less reaction.
+    case = US_CASE | {"column_height": "24.5 ft", "top": "free", "top_mass": "420000 lb"}
+    sheet = Sheet(case_from(case | {"speed": "60 mph", "truck_mass": "24000 lb"}))
+    result = sheet.calculation
+    words = sheet.member_forces.comparison().body
+    first = {label: remark for label, _, remark in first_results(result)}
+    for name, demand in result.demands.items():
+        (impact,) = (own for own in result.impacts if own.demands[name].beam == demand.beam)
+        height = stated(impact.struck.impact_height, "length", "US")
+        ratio = rounded(demand.static / demand.beam, 3)
+        assert f"The largest {name} of the beam, struck at {height}, is" in words
+        assert f"the largest static one is {ratio} times it" in words.partition(f" {name} of")[2]
+        assert first[f"Largest {name}"].endswith(f"static over beam {ratio}")
+    most = max(result.impacts, key=lambda impact: impact.demands["moment"].beam)
+    assert most is not result.governing
