@@ -41,6 +41,36 @@ def test_an_unusual_value_is_named_on_page_one(change, key, words):
     assert any(str(line).startswith(words) for line in warnings_of(calculate(case)))
 
 
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (
+            {"column_width": "8 m", "impact_height": "1.35 m"},
+            ("8 m wide", "2.5 m wide", "5.2 m at"),
+        ),
+        ({"column_width": "12 m"}, ("12 m wide", "4.6 m at")),  # auto: the lower height
+        ({"column_width": "5.3 m", "impact_height": "1.35 m"}, ("5.3 m wide", "5.2 m at")),
+        ({"column_width": "5.1 m", "impact_height": "1.35 m"}, ()),
+        ({"column_width": "8 ft"}, ()),
+    ],
+)
+def test_of_a_wall_the_sheet_says_how_much_a_truck_engages(change, words):
+    static = {"units": "SI", "member_forces": "static", "shear_resistance": "90 MN"}
+    case = case_from(US_CASE | static | {"moment_resistance": "90 MN*m"} | change)
+    found = [line for line in warnings_of(calculate(case))[:4] if "a rule of this project" in line]
+    assert len(found) == bool(words)
+    assert all(word in line for line in found for word in words)
+
+
+def test_only_the_section_that_is_struck_is_a_wall():
+    step = {"height": "2 m", "column_shape": "rectangular"}
+    wide, narrow = ({"column_width": width, "column_depth": "1 m"} for width in ("8 m", "2 m"))
+    for low, high, is_wall in ((wide, narrow, True), (narrow, wide, False)):
+        values = low | {"steps": [step | high], "member_forces": "static"}
+        lines = warnings_of(calculate(case_from(US_CASE | values)))
+        assert any("as one beam" in line for line in lines) == is_wall
+
+
 CIRCLE = {"column_shape": "circular", "column_width": None, "column_depth": None}
 
 

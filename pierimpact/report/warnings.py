@@ -11,6 +11,10 @@ from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, compared, printed, rounded, stated, unit_size
 from pierimpact.vehicle.truck import another_truck
 
+#: Width of a truck, which spreads at 45° to either side from the impact down to the ground; a
+#: column wider than that is a wall: this project's choice [m].
+TRUCK_WIDTH = 2.5
+
 
 def warnings_of(calculation: Calculation) -> list[str]:
     """Return all that limits the results of a case, a sentence or two each.
@@ -22,6 +26,7 @@ def warnings_of(calculation: Calculation) -> list[str]:
         *_exceeded(calculation),
         *_smaller_asked(calculation),
         *_too_low(calculation),
+        *_wall(calculation),
         *_another_truck(calculation),
         *_unusual(calculation),
         *_unknown(calculation),
@@ -71,6 +76,25 @@ def _too_low(calculation: Calculation) -> Iterator[str]:
         )
     if calculation.governing.beam_forces is None and not calculation.static_forces.hold:
         yield calculation.static_forces.sentence
+
+
+def _wall(calculation: Calculation) -> Iterator[str]:
+    """Yield where the column is wider than what a truck engages of it."""
+    case = calculation.case
+    # Counted from where the lower height is: there the least of it is engaged.
+    height = min(case.impact_heights)
+    section = next(own for own, low, high in case.column.stretches if low <= height <= high)
+    width, engaged = getattr(section, "width", 0.0), TRUCK_WIDTH + 2.0 * height
+    if width > engaged:
+        wide, part, truck = (
+            str(printed(value, "length", case.inputs.units, given=True))
+            for value in (width, engaged, TRUCK_WIDTH)
+        )
+        yield (
+            f"The column is {wide} wide across the travel, and the sheet takes all of it as one "
+            f"beam. A truck about {truck} wide engages some {part} at its foot, spread at 45° (a "
+            "rule of this project): stiffness and resistances of the full width may be too large."
+        )
 
 
 def _another_truck(calculation: Calculation) -> Iterator[str]:
