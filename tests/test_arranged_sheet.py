@@ -1,6 +1,7 @@
 """The sheet of a column with steps, springs, embedment and a mass at its top."""
 
 import re
+from html import unescape
 
 import pytest
 import stiffness_method
@@ -9,6 +10,7 @@ from sheet_page import page_of
 
 from pierimpact import InputError
 from pierimpact.files.case import case_from
+from pierimpact.report.check import check_text
 from pierimpact.report.sheet import Sheet
 from pierimpact.report.warnings import warnings_of
 from pierimpact.units import compared
@@ -201,6 +203,32 @@ def test_the_method_is_said_to_govern_only_where_it_does(asked, head):
     table = Sheet(case_from(CASE | {"member_forces": asked})).first_page.utilisations()
     assert table.columns[3].heading == head
     assert ("that governs" in table.caption) == (asked == "larger")
+
+
+@pytest.mark.parametrize(
+    ("speed", "before_cargo"), [("5 km/h", "sheet metal"), ("80 km/h", "engine")]
+)
+def test_where_the_engine_does_not_arrive_sheet_metal_makes_the_peak_everywhere(
+    speed, before_cargo
+):
+    case = case_from(CASE | {"speed": speed, "member_forces": "static"})
+    sheet = Sheet(case)
+    history, name = sheet.calculation.history, before_cargo.capitalize()
+    assert history.before_cargo == before_cargo
+    met = history.engine_contact_time
+    assert (met is not None and met <= history.engine_peak.time) == (before_cargo == "engine")
+    assert sheet.model.peaks().rows[0][0] == name
+    assert sheet.spectrum_method.check().rows[0][0] == name
+    drawn = unescape(sheet.model.history().svg + sheet.spectrum_method.spectra().svg)
+    assert f"{name} peak" in drawn
+    assert ("Engine peak" in drawn, "engine governs" in drawn) == (before_cargo == "engine",) * 2
+    if before_cargo == "sheet metal":
+        assert sheet.calculation.governs == sheet.results().governs == "sheet metal"
+        assert "sheet metal peak of the full model" in check_text("P", sheet.calculation)
+        assert "crumpling sheet metal alone" in str(sheet.first_page.contacts())
+        assert "engine peak" not in page_of(CASE | {"speed": speed}).replace(
+            "are the engine peak, or the sheet metal’s", ""
+        )
 
 
 @pytest.mark.parametrize(

@@ -93,7 +93,7 @@ def test_the_envelopes_hold_those_of_every_impact(system):
 def test_the_spectra_are_shaded_where_the_cargo_governs(changes, system):
     found, size = changes.frequency, unit_size("force", system)
     (axes,) = axes_of(spectra.draw_spectra, found, PIER.frequency, system)
-    for values in found[1:]:
+    for values in found[1:5]:
         assert drawn(axes, found.values, values / size)
     inside = np.zeros(len(found.values), dtype=bool)
     for span in axes.patches:

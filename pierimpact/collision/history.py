@@ -126,6 +126,15 @@ class CollisionHistory:
         return Peak(min(pier.stiffness * elastic_displacement, pier.yield_reaction), time)
 
     @property
+    def before_cargo(self) -> str:
+        """What makes the engine peak: "engine", or "sheet metal" where the engine comes later.
+
+        It does so too where the engine does not arrive at all.
+        """
+        contact = self.engine_contact_time
+        return "sheet metal" if contact is None or contact > self.engine_peak.time else "engine"
+
+    @property
     def peaks(self) -> dict[str, Peak | None]:
         """The "engine" and the "cargo" peak."""
         return {"engine": self.engine_peak, "cargo": self.cargo_peak}

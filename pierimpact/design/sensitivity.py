@@ -34,6 +34,7 @@ class Variation(NamedTuple):
     cargo: Array  #: the same; nan without cargo contact [N]
     design_engine: Array  #: reaction by the design procedure [N]
     design_cargo: Array  #: the same [N]
+    by_engine: NDArray[np.bool_]  #: whether the engine makes its peak, and not sheet metal before
 
     @property
     def model(self) -> Array:
@@ -131,11 +132,12 @@ def _reactions(collisions: Mapping[str, Mapping[float, Collision]]) -> dict[str,
     speed = [collision.speed for collision in together]
     peaks = peak_reactions(trucks, mass, stiffness, ratio, speed)
     design = design_reactions(trucks, mass, stiffness, ratio, speed, level="short")
-    results = (peaks.engine, peaks.cargo, design.engine, design.cargo)
+    by_engine = peaks.engine_contact_time <= peaks.engine_time
+    results = (peaks.engine, peaks.cargo, design.engine, design.cargo, by_engine)
     ends = np.cumsum([len(part) for part in collisions.values()])
     return {
-        name: Variation(
-            np.array(list(part)), *(result[end - len(part) : end] for result in results)
+        name: Variation._make(
+            (np.array(list(part)), *(result[end - len(part) : end] for result in results))
         )
         if part
         else None

@@ -61,7 +61,8 @@ def draw_history(history: CollisionHistory, system: str) -> str:
 
 def _peaks(history: CollisionHistory) -> dict[str, Peak]:
     """Return the peaks there are, and the lowest reaction where it is below zero."""
-    peaks = {f"{name.capitalize()} peak": own for name, own in history.peaks.items() if own}
+    names = {"engine": history.before_cargo, "cargo": "cargo"}
+    peaks = {f"{names[name].capitalize()} peak": own for name, own in history.peaks.items() if own}
     lowest = history.lowest
     if lowest.reaction < 0.0:
         # It may lie beyond what was followed.

@@ -30,9 +30,9 @@ _LINES: dict[str, dict[str, Any]] = {
 }
 _BY_HAND: dict[str, Any] = {"linewidth": 0.8, "dashes": (4, 2)}
 _GOVERNS = "#e9edf0"
-# So many times its lowest is the highest frequency of a range that is named, and one change that is
-# marked the next below.
-_NAMED, _APART = 2.0, 1.2
+# So many times its lowest is the highest frequency of a range that is named, and one change whose
+# frequency is written the next below.
+_NAMED, _APART = 2.0, 1.1
 
 
 def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
@@ -59,15 +59,17 @@ def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
             "engine": (spectrum.engine / size, spectrum.design_engine / size),
             "cargo": (spectrum.cargo / size, spectrum.design_cargo / size),
         }
+        engine = "engine" if spectrum.by_engine.any() else "sheet metal"
+        here_is = {"engine": "engine" if spectrum.by_engine[here] else "sheet metal"}
         values, names = [], []
-        for name, (model, by_hand) in curves.items():
-            line = _LINES[name]
+        for body, (model, by_hand) in curves.items():
+            line, name = _LINES[body], engine if body == "engine" else body
             axes.plot(spectrum.values, by_hand, **line | _BY_HAND)
             axes.plot(spectrum.values, model, **line)
             colour = {"color": line["color"]}
             if np.isfinite(model[here]):
                 axes.plot([frequency], [model[here]], "o", color=line["color"], markersize=4.5)
-                words = f"{name} {shown(model[here] * size, 'force', system)}"
+                words = here_is.get(body, body) + f" {shown(model[here] * size, 'force', system)}"
                 values.append(Label(axes, words, (frequency, model[here]), options=colour))
             names += [
                 Label(axes, words, _along(spectrum.values, curve), options=colour)
@@ -87,29 +89,34 @@ def draw_spectra(spectrum: Variation, frequency: float, system: str) -> str:
 
 
 def _shade(axes: Axes, spectrum: Variation) -> list[Label]:
-    """Shade where the cargo governs, and mark where that changes; return the labels."""
+    """Shade where the cargo governs, and mark where what governs changes; return the labels."""
     x, gap = spectrum.values, np.nan_to_num(spectrum.cargo, nan=0.0) - spectrum.engine
-    cargo = gap > 0.0
-    changes = np.flatnonzero(np.diff(cargo.astype(int)))
-    share = gap[changes] / (gap[changes] - gap[changes + 1])
+    first = np.where(spectrum.by_engine, "engine", "sheet metal")
+    governs = np.where(gap > 0.0, "cargo", first)
+    changes = np.flatnonzero(governs[1:] != governs[:-1])
+    # Between engine and sheet metal no curves cross: it is where one follows the other.
+    of_cargo = (gap[changes] > 0.0) != (gap[changes + 1] > 0.0)
+    steps = np.where(of_cargo, gap[changes] - gap[changes + 1], 1.0)
+    share = np.where(of_cargo, gap[changes] / steps, 0.5)
     crossings = x[changes] * (x[changes + 1] / x[changes]) ** share
     (left, right), (_, top) = axes.get_xlim(), axes.get_ylim()
     ends = np.array([left, *crossings, right])
     wide = ends[1:] / ends[:-1]
     labels = []
+    bands = governs[[0, *(changes + 1)]]
     for number, (low, high) in enumerate(pairwise(ends)):
-        governs = bool(cargo[0]) != bool(number % 2)
-        if governs:
+        if bands[number] == "cargo":
             axes.axvspan(low, high, color=_GOVERNS, linewidth=0.0, zorder=0.0)
         if wide[number] > _NAMED:
             places = [(own, 0.97 * top) for own in np.geomspace(low, high, 11)[3:-3]]
-            words = f"{'cargo' if governs else 'engine'} governs"
-            labels.append(Label(axes, words, places, (0.0, 0.0), {"color": MUTED}))
+            labels.append(
+                Label(axes, f"{bands[number]} governs", places, (0.0, 0.0), {"color": MUTED})
+            )
     above = np.inf
     for crossing in crossings[::-1]:
+        axes.axvline(crossing, color=MUTED, linewidth=0.6, dashes=(2, 2))
         if above > _APART * crossing:
             above = crossing
-            axes.axvline(crossing, color=MUTED, linewidth=0.6, dashes=(2, 2))
             points = [(crossing, share * top) for share in (0.04, 0.5, 0.9)]
             labels.append(Label(axes, f"{crossing:.3g} Hz", points, options={"color": MUTED}))
     return labels

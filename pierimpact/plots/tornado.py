@@ -138,7 +138,7 @@ def _beside(variation: Variation, here: float) -> list[Variation | None]:
     for wanted in (here * (1.0 - _NEAR), here * (1.0 + _NEAR)):
         i = int(np.argmin(np.abs(variation.values - wanted)))
         near = abs(variation.values[i] - wanted) < 0.5 * abs(here - wanted)
-        found.append(Variation(*(own[i : i + 1] for own in variation)) if near else None)
+        found.append(Variation._make(own[i : i + 1] for own in variation) if near else None)
     return found
 
 

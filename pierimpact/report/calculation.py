@@ -160,8 +160,9 @@ class Calculation:
 
     @property
     def governs(self) -> str:
-        """Which peak the result is: engine or cargo."""
-        return self.history.governs
+        """What makes the result: engine, sheet metal where the engine does not, or cargo."""
+        history = self.history
+        return history.before_cargo if history.governs == "engine" else "cargo"
 
     @cached_property
     def short(self) -> DesignReaction:

@@ -182,7 +182,8 @@ _RESULTS_CAPTION = (
 _CASES_CAPTION = (
     *("Cases: total mass of the truck ", Tex("m_1 + m_2"), ", speed at first touch ", Tex("V")),
     *(", nominal impact height ", Tex(r"z_\mathrm{n}"), " and frequency of the pier "),
-    *(Tex(r"f_\mathrm{p}"), "; engine and cargo peak of the full model."),
+    *(Tex(r"f_\mathrm{p}"), "; engine and cargo peak of the full model. Where the engine has not "),
+    "arrived by the first, it is the sheet metal’s.",
 )
 
 

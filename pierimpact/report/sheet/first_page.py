@@ -142,14 +142,14 @@ class FirstPage(Section):
         if history.cargo_contact_time is None and history.engine_contact_time is None:
             return Paragraph(
                 "Neither engine nor cargo reaches the pier: the reaction is the pier’s response to "
-                "the crumpling of the truck alone, and there is no cargo peak."
+                "crumpling sheet metal alone, and there is no cargo peak."
             )
         if history.cargo_contact_time is None:
             return Paragraph("The cargo does not reach the pier: there is no cargo peak.")
         if history.engine_contact_time is None:
             return Paragraph(
-                "The engine does not reach the pier before the cargo does: its peak is the pier’s "
-                "response to the crumpling of the truck alone."
+                "The engine does not reach the pier before the cargo does: the peak before is the "
+                "pier’s response to crumpling sheet metal alone."
             )
         return None
 

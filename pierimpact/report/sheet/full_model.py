@@ -74,7 +74,7 @@ class FullModel(Section):
     def history(self) -> Block:
         """Return reaction and contact force against time."""
         history = self.calculation.history
-        words = f"The engine peak is {self._peak_words(history.engine_peak)}"
+        words = f"The {history.before_cargo} peak is {self._peak_words(history.engine_peak)}"
         words += (
             "; there is no cargo peak"
             if history.cargo_peak is None
@@ -99,7 +99,11 @@ class FullModel(Section):
         """Return contact times, peaks and lowest point of the reaction, and which governs."""
         history = self.calculation.history
         peaks = (
-            ("Engine", history.engine_contact_time, history.engine_peak),
+            (
+                history.before_cargo.capitalize(),
+                history.engine_contact_time,
+                history.engine_peak,
+            ),
             ("Cargo", history.cargo_contact_time, history.cargo_peak),
         )
         rows: list[list[Inline]] = [
@@ -108,7 +112,7 @@ class FullModel(Section):
                 self.number(contact, "time"),
                 self.number(peak.reaction if peak else None, "force"),
                 self.number(peak.time, "time") if peak else "",
-                "governs" if name.lower() == history.governs else "",
+                "governs" if name.lower() == self.calculation.governs else "",
             ]
             for name, contact, peak in peaks
         ]

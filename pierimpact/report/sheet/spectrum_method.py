@@ -41,8 +41,16 @@ class SpectrumMethod(Section):
     def spectra(self) -> Block:
         """Return the engine's and the cargo's reaction against pier frequency."""
         result, frequency = self.calculation, self.calculation.pier.frequency
-        pier, cargo = self.shown(frequency, "frequency"), result.history.cargo_peak
-        words = f"an engine peak of {self.shown(result.history.engine_peak.reaction, 'force')} and "
+        history = result.history
+        pier, first, cargo = (
+            self.shown(frequency, "frequency"),
+            history.before_cargo,
+            history.cargo_peak,
+        )
+        article = "an" if first == "engine" else "a"
+        words = (
+            f"{article} {first} peak of {self.shown(history.engine_peak.reaction, 'force')} and "
+        )
         words += (
             "no cargo peak"
             if cargo is None
@@ -50,11 +58,11 @@ class SpectrumMethod(Section):
         )
         return Figure(
             label="fig-spectra",
-            caption="Reaction against pier frequency at this pier’s mass and damping: engine and "
+            caption=f"Reaction against pier frequency at this pier’s mass and damping: {first} and "
             f"cargo by the full model, and dashed by the spectrum method. This pier, {pier}, is "
             "marked.",
-            alt=f"Spectra of engine and cargo reaction. At this pier’s {pier} the full model gives "
-            f"{words}.",
+            alt=f"Spectra of {first} and cargo reaction. At this pier’s {pier} the full model "
+            f"gives {words}.",
             svg=draw_spectra(result.sensitivity.frequency, frequency, self.system),
         )
 
@@ -132,7 +140,7 @@ def beside_model(
                 "" if closed is None or exact is None else rounded(closed / exact, 3),
             ]
             for reaction, exact, closed in (
-                ("Engine", history.engine_peak.reaction, level.engine),
+                (history.before_cargo.capitalize(), history.engine_peak.reaction, level.engine),
                 ("Cargo", cargo.reaction if cargo else None, level.cargo),
                 ("Governing", history.governing_peak.reaction, level.reaction),
             )
