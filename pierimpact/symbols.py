@@ -219,8 +219,6 @@ xb | x_\mathrm{pb} | length | displacement of the pier at $t_\mathrm{b}$; the sp
 
 # Results
 R | R_\mathrm{d} | force | design reaction
-R_D | R_\mathrm{D} | force | reaction of the design procedure
-R_M | R_\mathrm{M} | force | governing peak of the full model
 V_max | V_\mathrm{max} | force | largest shear
 M_max | M_\mathrm{max} | moment | largest moment
 Ry | R_\mathrm{y} | force | yield reaction

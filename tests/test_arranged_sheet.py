@@ -11,6 +11,7 @@ from sheet_page import page_of
 from pierimpact import InputError
 from pierimpact.files.case import case_from
 from pierimpact.report.check import check_text
+from pierimpact.report.outcome import first_results
 from pierimpact.report.sheet import Sheet
 from pierimpact.report.warnings import warnings_of
 from pierimpact.units import compared
@@ -203,6 +204,26 @@ def test_the_method_is_said_to_govern_only_where_it_does(asked, head):
     table = Sheet(case_from(CASE | {"member_forces": asked})).first_page.utilisations()
     assert table.columns[3].heading == head
     assert ("that governs" in table.caption) == (asked == "larger")
+
+
+def test_the_band_says_what_its_shares_are_and_which_mass_has_no_spread():
+    case = CASE | {"annexes": ["sensitivity"], "member_forces": "static"}
+    given, own = (Sheet(case_from(case | {"truck_mass": mass})) for mass in ("9 t", None))
+    for sheet, but_for in ((given, True), (own, False)):
+        found = {label: remark for label, _, remark in first_results(sheet.calculation)}
+        remark = found["Band, 5 to 95 %"]
+        assert remark.endswith("% of the variance, alone and with others")
+        assert ("but for its body’s mass, which the case gives" in remark) == but_for
+        assert "may add up to more than 100 %" in sheet.sensitivities.band().caption
+    assert sum(own.calculation.band.influence.values()) > 1.0
+
+
+def test_the_figures_of_sensitivity_say_what_changes_and_by_which_method():
+    sheet = Sheet(case_from(CASE | {"annexes": ["sensitivity"], "member_forces": "static"}))
+    assert "impact height and pier frequency by about 10 %" in sheet.sensitivity.tornado().caption
+    drawn = unescape(sheet.sensitivities.figure().svg)
+    assert "spectrum method" in drawn
+    assert "design procedure" not in drawn
 
 
 @pytest.mark.parametrize(

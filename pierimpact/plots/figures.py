@@ -132,7 +132,7 @@ def draw_sensitivity(
 
 def _plot_both(axes: Any, x: Any, model: Any, design: Any, system: str) -> None:
     size = unit_size("force", system)
-    axes.plot(x, design / size, label=DESIGN, **CLOSED)
+    axes.plot(x, design / size, label="spectrum method", **CLOSED)
     axes.plot(x, model / size, label=MODEL, **EXACT)
 
 

@@ -20,7 +20,8 @@ _ROW, _TOP, _BOTTOM, _NAMES = 3.6, 4.0, 9.0, 56.0  # [mm]
 _BAR = 0.62  # height of a bar, over that of its row
 _FEWEST, _MOST = 4, 8  # rows, the others move the reaction less
 _LEAST = 0.002  # of the reaction, by which a change that is drawn moves it
-_NEAR = 0.1  # share by which impact height and pier frequency change, or the nearest calculated
+#: Share by which impact height and pier frequency change, or the nearest calculated.
+NEAR = 0.1
 _LINE: dict[str, Any] = {"edgecolor": INK, "linewidth": 0.5}
 _LESS: dict[str, Any] = _LINE | {"facecolor": SKY}
 _MORE: dict[str, Any] = _LINE | {"facecolor": BLUE}
@@ -135,7 +136,7 @@ def _value(value: float, quantity: str, system: str) -> str:
 def _beside(variation: Variation, here: float) -> list[Variation | None]:
     """Return the calculated values nearest to a share below and above; None where there is none."""
     found: list[Variation | None] = []
-    for wanted in (here * (1.0 - _NEAR), here * (1.0 + _NEAR)):
+    for wanted in (here * (1.0 - NEAR), here * (1.0 + NEAR)):
         i = int(np.argmin(np.abs(variation.values - wanted)))
         near = abs(variation.values[i] - wanted) < 0.5 * abs(here - wanted)
         found.append(Variation._make(own[i : i + 1] for own in variation) if near else None)

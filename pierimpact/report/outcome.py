@@ -87,9 +87,9 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
         yield FirstResult(
             "Band, 5 to 95 %",
             Printed(f"{low}–{high}", unit_of("force", system)),
-            "as the truck’s parameters vary within their spread; moved most by the "
-            f"{BY_KEY[name].meaning}, {band.spread[name].words}: "
-            f"{rounded(100.0 * share, 2)} % of the variance",
+            f"as the truck’s parameters{_but_for(result)} vary within their spread; moved most by "
+            f"the {BY_KEY[name].meaning}, {band.spread[name].words}: "
+            f"{rounded(100.0 * share, 2)} % of the variance, alone and with others",
         )
     for (name, demand), value in zip(result.demands.items(), _largest(result), strict=True):
         of_static = (
@@ -111,6 +111,14 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
         shown(pier.frequency, "frequency"),
         f"{shown(pier.stiffness, 'stiffness')}, {shown(pier.mass, 'mass')}",
     )
+
+
+def _but_for(calculation: Calculation) -> str:
+    """Return which mass of the truck has no spread as the case gives it, if any."""
+    case = calculation.case
+    spread = case.truck_file.truck.spread
+    given = "body_mass" in spread and "body_mass" not in case.truck.spread
+    return ", but for its body’s mass, which the case gives," if given else ""
 
 
 def _largest(calculation: Calculation) -> list[Printed]:

@@ -3,7 +3,7 @@
 from pierimpact.design.sensitivity import MASS_CHANGE
 from pierimpact.plots.band import draw_band
 from pierimpact.plots.figures import draw_sensitivity
-from pierimpact.plots.tornado import draw_tornado
+from pierimpact.plots.tornado import NEAR, draw_tornado
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal
@@ -32,11 +32,12 @@ class Variations(Section):
         """Return what moves the governing reaction most."""
         result = self.calculation
         step = self.shown(result.sensitivity.speed_change, "speed", given=True)
-        spread = " and the truck’s parameters within their spread" if result.band.spread else ""
+        spread = ", the truck’s parameters within their spread" if result.band.spread else ""
         return Figure(
             label="fig-tornado",
             caption=f"Governing reaction by the full model as one thing changes: speed by {step}, "
-            f"mass by {100.0 * MASS_CHANGE:g} % with other cargo, the impact height{spread}.",
+            f"mass by {100.0 * MASS_CHANGE:g} % with other cargo, impact height and pier frequency "
+            f"by about {100.0 * NEAR:g} %{spread}.",
             alt="What moves the governing reaction, the largest change first.",
             svg=draw_tornado(
                 result.sensitivity,
@@ -104,8 +105,9 @@ class Sensitivities(Section):
             label="fig-band",
             caption="Reactions by the full model as the truck’s parameters vary within their "
             "spread: 5 to 95 % of 1000 sampled trucks, and the governing reaction with one "
-            "parameter at a time at either end; with its share of the variance. Source of the "
-            f"spreads: {'; '.join(sources)}.",
+            "parameter at a time at either end; with its share of the variance, alone and with "
+            "others, so that the shares may add up to more than 100 %. Source of the spreads: "
+            f"{'; '.join(sources)}.",
             alt=f"Nine of ten governing reactions are from {low} to {high}. The {name} moves it "
             "most.",
             svg=draw_band(band, self.system),

@@ -33,10 +33,7 @@ class SpectrumMethod(Section):
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the short level, by name."""
-        return {step.name: "tab-short" for step in self.calculation.short.steps} | {
-            "R_D": "tab-check",
-            "R_M": "tab-check",
-        }
+        return {step.name: "tab-short" for step in self.calculation.short.steps}
 
     def spectra(self) -> Block:
         """Return the engine's and the cargo's reaction against pier frequency."""
