@@ -6,7 +6,7 @@ import pytest
 from generated_collisions import HARD, collisions
 from scipy.interpolate import BPoly
 
-from pierimpact import simulate
+from pierimpact import EquivalentPier, load_truck, simulate
 
 GENERATED = collisions(100, seed=30)
 EVERY = pytest.mark.parametrize(
@@ -219,3 +219,28 @@ def test_a_truck_that_has_left_flies_freely_and_the_pier_rings_on():
             atol=1e-10 * np.abs(history.pier_displacement).max(),
         )
     assert left >= 10
+
+
+@pytest.mark.parametrize("case", GENERATED[::3])
+def test_the_pier_never_swings_further_back_than_is_said(case):
+    longer, history = 0.0, simulate(*case)
+    while not history.has_swung_back:
+        longer = history.time[-1] + 1.0 / case.pier.frequency
+        history = simulate(*case, longer)
+    lowest = history.lowest
+    far = simulate(*case, 2.0 * history.time[-1] + 5.0 / case.pier.frequency)
+    fine = far.reaction_at(np.linspace(0.0, far.time[-1], 200_001))
+    largest = far.governing_peak.reaction
+    assert lowest.reaction <= fine.min() + 1e-6 * largest
+    assert history.reaction_at([lowest.time]) == pytest.approx(lowest.reaction, rel=1e-9, abs=1e-3)
+    assert lowest.reaction <= 0.0
+
+
+def test_a_pier_that_has_not_swung_back_is_known():
+    # The truck still presses as its last peak is over.
+    truck = dataclasses.replace(load_truck("tractor-trailer-36t"), friction_force=0.0)
+    pier = EquivalentPier.from_frequency(mass=160e3, frequency=3.4, damping_ratio=0.05)
+    history = simulate(truck, pier, 25.0)
+    assert not history.has_swung_back
+    assert simulate(truck, pier, 25.0, duration=5.0).has_swung_back
+    assert simulate(truck, pier, 25.0, duration=5.0).lowest.reaction < history.lowest.reaction

@@ -17,7 +17,7 @@ from pierimpact.collision.coasting import (
     free_vibration,
 )
 from pierimpact.collision.parameters import Collision
-from pierimpact.collision.regimes import LinearMotion, Position, State
+from pierimpact.collision.regimes import FREE, LinearMotion, Position, State
 from pierimpact.collision.series import ARRAYS, FLOATS, TERMS, weights_of_all
 from pierimpact.collision.stepping import (
     BODY,
@@ -39,6 +39,7 @@ Array: TypeAlias = NDArray[np.float64]
 # No mode advances by more than three radians in a piece: the chord between two of these samples
 # misses a maximum by less than 0.2 % of the amplitude.
 FRACTIONS = np.linspace(0.0, 1.0, 25)
+BETWEEN = 1001  # numerical: places between two samples where the smallest value is looked for
 MOST_PIECES = 100_000  # numerical: with their samples they fill a gigabyte
 
 
@@ -147,9 +148,24 @@ class CollisionHistory:
 
     @property
     def lowest(self) -> Peak:
-        """The smallest reaction sampled: the pier swings back, and past its rest it is negative."""
+        """The smallest reaction: the pier swings back, and past its rest it is negative."""
         sample = int(self.reaction.argmin())
-        return Peak(float(self.reaction[sample]), float(self.time[sample]))
+        before, after = self.time[max(sample - 1, 0)], self.time[sample : sample + 2][-1]
+        time = np.append(np.linspace(before, after, BETWEEN), self.time[sample])
+        reaction = self.reaction_at(time)
+        lowest = int(reaction.argmin())
+        return Peak(float(reaction[lowest]), float(time[lowest]))
+
+    @property
+    def has_swung_back(self) -> bool:
+        """Whether no later reaction can be below the `lowest`.
+
+        That is so a period of the pier after the truck has left it, or come to rest against it.
+        """
+        end, pier = self.end, self.pier
+        presses = end.engine.regime != FREE or (end.body.regime != FREE and not end.stuck)
+        period = 1.0 / (pier.frequency * math.sqrt(1.0 - pier.damping_ratio**2))
+        return not presses and end.time - end.last_change >= period
 
     @property
     def governs(self) -> str:

@@ -16,7 +16,7 @@ from pierimpact.design.static_forces import StaticForcesInCollision
 from pierimpact.files.case import Case
 from pierimpact.pier.column import StruckColumn
 from pierimpact.pier.equivalent import EquivalentPier
-from pierimpact.pier.member_forces import MemberForceHistory, MemberForces
+from pierimpact.pier.member_forces import BeamExtreme, MemberForceHistory, MemberForces
 
 #: Windows of the moving averages that crash tests report: 10 and 25 ms as read in NCHRP Report 892,
 #: 50 ms from memory [s].
@@ -222,6 +222,15 @@ class Calculation:
 
         return {name: largest(name) for name in ("shear", "moment")}
 
+    def largest_of_beam(self, name: str) -> tuple[BeamExtreme, Impact] | None:
+        """Return the largest "shear" or "moment" of the column as a beam, and of which impact."""
+        found = [
+            (getattr(impact.beam_forces, f"{name}_extremes").governing, impact)
+            for impact in self.impacts
+            if impact.beam_forces is not None
+        ]
+        return max(found, key=lambda own: abs(own[0].value), default=None)
+
     @cached_property
     def yielding(self) -> CollisionHistory | None:
         """The collision with a pier that yields at its moment resistance; None where it does not.
@@ -338,8 +347,7 @@ def calculate(case: Case) -> Calculation:
 def _with_reversal(case: Case, pier: EquivalentPier) -> CollisionHistory:
     """Return the collision, followed until the pier has swung back as far as it will."""
     history = simulate(case.truck, pier, case.inputs.speed)
-    end = float(history.time[-1])
-    # A pier that vibrates freely swings back within a period, and less far ever after.
-    if history.lowest.time == end:
-        history = simulate(case.truck, pier, case.inputs.speed, end + 1.0 / pier.frequency)
+    while not history.has_swung_back:
+        longer = 1.5 * history.end.time + 1.0 / pier.frequency  # numerical: any would do
+        history = simulate(case.truck, pier, case.inputs.speed, longer)
     return history

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from pierimpact.design.codes import aashto_lrfd
-from pierimpact.report.calculation import AVERAGE, Calculation
+from pierimpact.report.calculation import AVERAGE, Calculation, Demand
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, compared, printed, rounded, stated, unit_of
 
@@ -47,13 +47,45 @@ def statement(calculation: Calculation) -> str:
     return f"{holds}; {_listed(at_upper)} at the upper end of the band.{missing}"
 
 
-def upper_utilisations(calculation: Calculation) -> dict[str, float]:
-    """Return the utilisations in proportion at the band's upper end [-]; empty without a band."""
-    band = calculation.band
+def growth(calculation: Calculation) -> dict[str, float]:
+    """Return by how much member forces are larger at the band's upper end [-]; empty without one.
+
+    "static" forces grow with the reaction; the "shear" and the "moment" of the beam as the peak of
+    engine or cargo during which they are largest, and at least as the reaction: this project's
+    choice, for another blow may govern the beam than governs the reaction.
+    """
+    band, peaks = calculation.band, calculation.history.peaks
     if not band.spread:
         return {}
-    share = band.quantiles()[2] / calculation.design_force
-    return {name: ratio * share for name, ratio in calculation.utilisations.items()}
+    found = {"static": float(band.quantiles()[2]) / calculation.design_force}
+    for name in DEMANDS:
+        largest = calculation.largest_of_beam(name)
+        if largest is not None:
+            extreme, impact = largest
+            contact = impact.history.cargo_contact_time
+            cargo = peaks["cargo"] if contact is not None and extreme.time >= contact else None
+            blow, peak = ("cargo", cargo) if cargo else ("engine", calculation.history.engine_peak)
+            grown = float(band.quantiles(of=blow)[2]) / peak.reaction
+            found[name] = max(found["static"], grown)
+    return found
+
+
+def upper_utilisations(calculation: Calculation) -> dict[str, float]:
+    """Return the utilisations at the band's upper end [-]; empty without a band."""
+    factors, demands = growth(calculation), calculation.demands
+    if not factors:
+        return {}
+
+    def upper(name: str, demand: Demand) -> float:
+        grown = {"static": demand.static * factors["static"]}
+        if demand.beam is not None:
+            grown["beam"] = demand.beam * factors[name]
+        return max(grown.values()) if demand.asked == "larger" else grown[demand.method]
+
+    return {
+        name: ratio * upper(name, demands[name]) / demands[name].value
+        for name, ratio in calculation.utilisations.items()
+    }
 
 
 def verdict(ratio: float, at_upper: float | None) -> str:

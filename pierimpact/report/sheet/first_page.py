@@ -16,13 +16,14 @@ from pierimpact.report.outcome import (
     DEMANDS,
     METHODS,
     first_results,
+    growth,
     statement,
     upper_utilisations,
     verdict,
 )
 from pierimpact.report.sheet.section import Section
 from pierimpact.report.warnings import warnings_of
-from pierimpact.units import compared
+from pierimpact.units import compared, rounded
 
 # As many as a reader takes in; the others stand with the limits: this project's choice.
 _FIRST_WARNINGS = 4
@@ -83,6 +84,22 @@ class FirstPage(Section):
             results=list(first_results(result)),
         )
 
+    def _at_upper_end(self) -> str:
+        """Return how utilisations at the upper end of the band follow, where there is one."""
+        factors = {name: rounded(factor, 3) for name, factor in growth(self.calculation).items()}
+        if not factors:
+            return ""
+        words = (
+            f"; at 95 % static forces are {factors.pop('static')} times as large, as the reaction"
+        )
+        if factors:
+            grown = " and ".join(f"{factor} ({name})" for name, factor in factors.items())
+            words += (
+                f", those of the beam {grown} times, as the peak of engine or cargo in which they "
+                "are largest, at least as the reaction"
+            )
+        return words
+
     def utilisations(self) -> Block | None:
         """Return demand, resistance and utilisation by either method; None without resistance."""
         inputs, result = self.case.inputs, self.calculation
@@ -116,8 +133,7 @@ class FirstPage(Section):
         return Table(
             label="tab-utilisation",
             caption="Largest member force over its resistance, by the method that "
-            f"{'governs' if larger else 'the case asks for'}; and at the upper end of the band, in "
-            "proportion to the reaction.",
+            f"{'governs' if larger else 'the case asks for'}{self._at_upper_end()}.",
             columns=columns(
                 "Check",
                 decimal("Static"),

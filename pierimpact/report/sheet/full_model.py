@@ -141,6 +141,9 @@ class FullModel(Section):
             strong=[["engine", "cargo"].index(history.governs)],
         )
 
+    def _end(self) -> str:
+        return f"after {self.shown(float(self.calculation.history.time[-1]), 'time')}"
+
     def energy(self) -> Block:
         """Return where the truck's energy is at the governing peak and at the end."""
         result, history = self.calculation, self.calculation.history
@@ -161,8 +164,8 @@ class FullModel(Section):
         return Table(
             label="tab-energy",
             caption=(
-                "Energy at the governing peak and at the end. The sums are the truck’s at first "
-                "touch, ",
+                f"Energy at the governing peak and at the end, {self._end()}. The sums are the "
+                "truck’s at first touch, ",
                 Tex(r"(m_1 + m_2) \, V^2 / 2 = " + in_tex(whole)),
                 "; the deflection at the peak is ",
                 Tex(r"R_\mathrm{d}^2 / 2 k_\mathrm{p}"),
@@ -197,8 +200,8 @@ class FullModel(Section):
         return Table(
             label="tab-momentum",
             caption=(
-                "Momentum at the end, and impulses up to then. The sum is the truck’s at first "
-                "touch, ",
+                f"Momentum at the end, {self._end()}, and impulses up to then. The sum is the "
+                "truck’s at first touch, ",
                 Tex(r"(m_1 + m_2) \, V = " + in_tex(whole)),
                 ".",
             ),
