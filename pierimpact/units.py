@@ -115,7 +115,8 @@ def _unit(expression: str) -> tuple[Fraction, dict[str, Fraction]] | None:
     expression = re.sub(r"^\s*/", "1/", expression)
     try:
         size = (Fraction(1) * _registry().parse_units(expression)).to_base_units()
-    except (pint.PintError, AttributeError):  # an undefined unit is an AttributeError to pint
+    # To pint an undefined unit is an AttributeError and nan a number, which is no fraction.
+    except (pint.PintError, AttributeError, ValueError):
         return None
     return Fraction(size.magnitude), dict(size.dimensionality)
 

@@ -214,6 +214,10 @@ def test_the_table_of_inputs_says_that_an_end_is_on_springs():
         ({"speed": 80}, "speed must have a unit (km/h, m/s, mph), got 80"),
         ({"speed": "80"}, "speed must have a unit (km/h, m/s, mph), got '80'"),
         ({"speed": "80 km"}, "speed must be a speed (km/h, m/s, mph), got '80 km', which is a len"),
+        (
+            {"speed": "80 nan"},
+            "speed must be a speed (km/h, m/s, mph), got unknown unit in '80 nan'",
+        ),
         ({"speed": "80 kmh"}, "got unknown unit in '80 kmh'; did you mean km/h?"),
         (
             {"speed": "0 km/h"},

@@ -106,6 +106,7 @@ def test_a_truck_of_ones_own_loads_by_path(tmp_path):
             "engine_mass must be from 1.0 to 1.0×10⁶ kg (2.2 to 2.2×10⁶ lb), got '-700 kg'",
         ),
         ('unit = "kg"', 'unit = "kip"', "engine_mass must be a mass (kg, t, lb), got '700 kip'"),
+        ('unit = "kg"', 'unit = "nan"', "engine_mass must be a mass (kg, t, lb), got unknown unit"),
         ('unit = "kg"', "unit = 3", "engine_mass.unit must be text, got 3"),
         ('value = "road"', 'value = "sky"', "friction_on must be one of road, pier, got 'sky'"),
         ('status = "illustrative"', 'status = "sure"', "status must be one of read, secondary"),

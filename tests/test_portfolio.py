@@ -252,6 +252,11 @@ def test_on_a_cluster_of_which_a_worker_is_killed_it_comes_to_the_same_bytes(
     [
         ("speed [km/h]", "speed", r"speed has no unit in row 2: write it in the heading, as speed"),
         ("speed [km/h]", "spede [km/h]", r"'spede \[km/h\]' is no column of piers; did you mean s"),
+        (
+            "column_height [m]",
+            "column_height [nan]",
+            "column_height must be a length .*unknown unit",
+        ),
         ("speed [km/h]", "speed [kg]", r"speed must be a speed .*which is a mass"),
         ("speed [km/h]", "top", "the column top is there twice"),
         ("truck,", "element,", "the column truck is missing"),

@@ -69,6 +69,7 @@ BAD = {
         None,
         "row 1: contact force must be a force (kN, MN, lbf, kip), got unknown unit",
     ),
+    "no unit": ("time [nan], reaction [kN]", None, "row 1: time must be a time (ms, s), got unkn"),
     "mass for force": ("time [ms], contact force [lb]", None, "which is a mass"),
     "no force": ("time [ms]", None, "row 1: the heading must name time and one force"),
     "two forces": (
