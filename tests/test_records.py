@@ -230,7 +230,10 @@ def test_record_and_model_pass_the_same_filter():
         ({"quantity": "force"}, "quantity must be one of contact force, reaction"),
         ({"cutoff": -1.0}, "cutoff must be positive"),
         ({"cutoff": 450.0}, "cutoff must be at most 0.4 of the record's 1000 samples a second"),
+        ({"cutoff": 1e-6}, r"cutoff must be at least 16\.9492 Hz, one period .*, got 1e-06 Hz"),
         ({"window": 0.0}, "window must be positive"),
+        ({"window": 1e9}, r"window must be at most the record's 0\.059 s, got 1e\+09 s"),
+        ({"first_touch": -1e6}, r"first_touch must lie at most 10 s before the end .* -1e\+06 s"),
         ({"first_touch": 1.0}, "first_touch must lie before the end of the record"),
     ],
 )
@@ -238,6 +241,20 @@ def test_bad_values_are_refused(values, message):
     given = {"time": 1e-3 * TIMES, "force": FORCES, "speed": 20.0} | values
     with pytest.raises(InputError, match=message):
         Record(**given)
+
+
+def test_a_filter_is_bounded_like_that_of_a_record():
+    record = Record(time=1e-3 * TIMES, force=FORCES, speed=20.0)
+    with pytest.raises(InputError, match=r"cutoff must be at least 16\.9492 Hz"):
+        record.low_passed(1e-6)
+
+
+def test_an_average_shorter_than_a_sample_is_the_force():
+    time = np.arange(0.0, 0.2, 1e-3)
+    record = Record(time=time, force=np.ones_like(time), speed=22.2, window=1e-12)
+    history = record.collision(TRUCK)
+    plain = dataclasses.replace(record, window=None).modelled(history)
+    np.testing.assert_allclose(record.modelled(history), plain, atol=0.01 * plain.max())
 
 
 def test_resolution_is_the_longest_of_what_blurs():

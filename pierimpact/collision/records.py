@@ -6,7 +6,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.checks import InputError, ascending_array, finite_array, number, one_of, positive
+from pierimpact.checks import (
+    InputError,
+    ascending_array,
+    finite_array,
+    number,
+    one_of,
+    positive,
+    told_from,
+)
 from pierimpact.collision.history import CollisionHistory
 from pierimpact.collision.simulate import simulate
 from pierimpact.pier.beam import BeamPier
@@ -17,6 +25,8 @@ Array = NDArray[np.float64]
 
 QUANTITIES = ("contact force", "reaction")
 FEWEST = 50  # samples of a record
+#: Time from first touch to the end of a record [s]: this project's choice, beyond any collision.
+LONGEST = 10.0
 #: A rigid pier, numerical: in a collision it moves by less than the thickness of an atom.
 RIGID = EquivalentPier.from_frequency(mass=1e14, frequency=10.0)
 
@@ -42,11 +52,13 @@ class Record:
         What was recorded: the force of the truck on the pier, or the static force k_p x_p that
         gives the pier's displacement; on a rigid pier they are the same.
     cutoff : float or None, optional
-        Cut-off frequency of the low-pass filter that the force has passed [Hz]; see `low_pass`.
+        Cut-off frequency of the low-pass filter that the force has passed [Hz]; see `low_pass`. The
+        record is at least one of its periods long.
     window : float or None, optional
-        Length of the moving average that the force is, centred on its times [s].
+        Length of the moving average that the force is, centred on its times: at most that of the
+        record [s].
     first_touch : float, optional
-        Time of first touch on the record's own clock [s].
+        Time of first touch on the record's own clock, at most 10 s before its end [s].
 
     Raises
     ------
@@ -77,6 +89,11 @@ class Record:
                 f"first_touch must lie before the end of the record at {time[-1]:g} s, "
                 f"got {first_touch:g} s"
             )
+        if time[-1] - first_touch > LONGEST:
+            raise InputError(
+                f"first_touch must lie at most {LONGEST:g} s before the end of the record at "
+                f"{time[-1]:g} s, got {first_touch:g} s"
+            )
         largest = float(np.max(force[time >= first_touch]))
         if largest <= 0.0:
             raise InputError(
@@ -90,6 +107,17 @@ class Record:
                 values[name] = positive(name, value)
         for name, value in values.items():
             object.__setattr__(self, name, value)
+        length = float(time[-1] - time[0])
+        if self.cutoff is not None and self.cutoff * length < 1.0:
+            raise InputError(
+                f"cutoff must be at least {1.0 / length:g} Hz, one period in the record, "
+                f"got {told_from(self.cutoff, 1.0 / length)} Hz"
+            )
+        if self.window is not None and self.window > length:
+            raise InputError(
+                f"window must be at most the record's {length:g} s, "
+                f"got {told_from(self.window, length)} s"
+            )
         # Of the samples a second; this project's choice.
         if self.cutoff is not None and self.cutoff > 0.4 / self.step:
             raise InputError(
@@ -155,6 +183,7 @@ class Record:
         if self.cutoff is None and self.window is None:
             return force_at(time - self.first_touch)
         scale = min(1.0 / self.cutoff if self.cutoff else math.inf, self.window or math.inf)
+        scale = max(scale, self.step)  # or a short average would take any number of samples
         step = self.step / max(1, math.ceil(_FINE * self.step / scale))
         grid = _grid(self.time, step)
         force = force_at(grid - self.first_touch)
