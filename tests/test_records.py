@@ -243,6 +243,14 @@ def test_bad_values_are_refused(values, message):
         Record(**given)
 
 
+def test_a_record_stays_as_it_was_checked():
+    time, force = 1e-3 * TIMES, FORCES.copy()
+    record = Record(time=time, force=force, speed=20.0)
+    time[:], force[:] = 0.0, np.nan
+    np.testing.assert_array_equal(record.time, 1e-3 * TIMES)
+    np.testing.assert_array_equal(record.force, FORCES)
+
+
 def test_a_filter_is_bounded_like_that_of_a_record():
     record = Record(time=1e-3 * TIMES, force=FORCES, speed=20.0)
     with pytest.raises(InputError, match=r"cutoff must be at least 16\.9492 Hz"):

@@ -99,7 +99,9 @@ class Record:
             raise InputError(
                 f"force must rise above zero (compression is positive), its largest is {largest:g}"
             )
-        values: dict[str, object] = {"time": time, "force": force, "first_touch": first_touch}
+        # Copies, so that a record stays as it was checked whatever becomes of the caller's arrays.
+        values: dict[str, object] = {"time": time.copy(), "force": force.copy()}
+        values["first_touch"] = first_touch
         values["speed"] = positive("speed", self.speed)
         one_of("quantity", self.quantity, QUANTITIES)
         for name in ("cutoff", "window"):
