@@ -31,9 +31,21 @@ class InputError(ValueError):
     """
 
 
+def _floats(values: object) -> NDArray[np.float64]:
+    """Return values as floats; a TypeError where they are text, booleans or complex numbers."""
+    array = np.asarray(values)
+    if array.dtype.kind == "O":  # fractions, say, and whole numbers of many digits
+        if any(isinstance(item, str | bytes | bool | np.bool_) for item in array.flat):
+            raise TypeError
+        array = np.array([float(item) for item in array.flat]).reshape(array.shape)
+    if array.dtype.kind not in "iuf":
+        raise TypeError
+    return np.asarray(array, dtype=float)
+
+
 def _float(name: str, value: SupportsFloat) -> float:
     try:
-        return float(value)
+        return float(_floats(value))
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name} must be a number, got {brief(value)}") from None
 
@@ -87,17 +99,19 @@ def ratio(name: str, value: SupportsFloat) -> float:
 def whole(name: str, value: SupportsIndex, least: int) -> int:
     """Return `value` as a whole number from `least` on."""
     try:
+        if isinstance(value, bool):
+            raise TypeError
         result = index(value)
     except TypeError:
         raise InputError(f"{name} must be a whole number, got {brief(value)}") from None
     if result < least:
-        raise InputError(f"{name} must be at least {least}, got {result}")
+        raise InputError(f"{name} must be at least {least}, got {brief(result)}")
     return result
 
 
 def one_of(name: str, value: str, choices: tuple[str, ...]) -> str:
     """Return `value` if it is among `choices`."""
-    if value not in choices:
+    if not (isinstance(value, str) and value in choices):
         raise InputError(f"{name} must be one of {', '.join(choices)}, got {brief(value)}")
     return value
 
@@ -187,9 +201,9 @@ def broadcast(arrays: Mapping[str, NDArray[Any]]) -> tuple[NDArray[Any], ...]:
 
 def _array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     try:
-        return np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} must be an array of numbers, got {values!r:.60}") from None
+        return _floats(values)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} must be an array of numbers, got {brief(values)}") from None
 
 
 def finite_array(name: str, values: ArrayLike) -> NDArray[np.float64]:

@@ -143,9 +143,15 @@ def _measured(given: dict[str, str], units: Mapping[str, str], folder: Path) -> 
     )
 
 
-def _plain(name: str, cell: Any) -> str | float:
+def _plain(name: str, cell: str) -> str | float:
     """Return a word as it is, and a ratio as a number."""
-    return number(name, cell) if name in BY_KEY and BY_KEY[name].quantity else cell
+    if name not in BY_KEY or not BY_KEY[name].quantity:
+        return cell
+    try:
+        value = float(cell)
+    except ValueError:
+        raise InputError(f"{name} must be a number, got {brief(cell)}") from None
+    return number(name, value)
 
 
 def _collision(values: Mapping[str, Any], folder: Path) -> Collision:
