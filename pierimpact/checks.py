@@ -96,8 +96,8 @@ def ratio(name: str, value: SupportsFloat) -> float:
     return result
 
 
-def whole(name: str, value: SupportsIndex, least: int) -> int:
-    """Return `value` as a whole number from `least` on."""
+def whole(name: str, value: SupportsIndex, least: int, most: float = math.inf) -> int:
+    """Return `value` as a whole number from `least` on, to `most`."""
     try:
         if isinstance(value, bool):
             raise TypeError
@@ -106,6 +106,8 @@ def whole(name: str, value: SupportsIndex, least: int) -> int:
         raise InputError(f"{name} must be a whole number, got {brief(value)}") from None
     if result < least:
         raise InputError(f"{name} must be at least {least}, got {brief(result)}")
+    if result > most:
+        raise InputError(f"{name} must be at most {most}, got {brief(result)}")
     return result
 
 
@@ -183,10 +185,15 @@ def ratio_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 def ascending_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return `values` as an array of finite numbers in one row, each above the one before it."""
-    array = finite_array(name, values)
+    array = one_row(name, finite_array(name, values))
+    _refuse(name, array, np.diff(array, prepend=-np.inf) <= 0.0, "ascend")
+    return array
+
+
+def one_row(name: str, array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return `array` if it has one dimension."""
     if array.ndim != 1:
         raise InputError(f"{name} must be in one row, got shape {array.shape}")
-    _refuse(name, array, np.diff(array, prepend=-np.inf) <= 0.0, "ascend")
     return array
 
 

@@ -386,6 +386,7 @@ def test_sampled_trucks_keep_the_rules(engine, body, spread, seed):
     ("changes", "message"),
     [
         ({"size": 0}, "size must be at least 1, got 0"),
+        ({"size": 10**400}, "size must be at most 1073741824, got 1000.*…"),
         ({"size": 10.5}, r"size must be a whole number, got 10\.5"),
         ({"seed": -1}, "seed must be at least 0, got -1"),
         ({"spread": 1.0}, "spread must lie from 0 to below 1, got 1"),
@@ -405,9 +406,30 @@ def test_bad_inputs_are_one_line(changes, message):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda band: band.sampled(True), "index must be a whole number, got True"),
+        (lambda band: band.sampled(-1), "index must be at least 0, got -1"),
+        (lambda band: band.sampled(10**6), "index must be at most .*, got 1000000"),
+        (lambda band: band.average_forces([]), "windows must be one or more, got none"),
+        (lambda band: band.average_forces([[0.01]]), r"windows must be in one row, .* \(1, 1\)"),
+        (lambda band: band.average_forces([0.0]), "windows must be positive, got 0 at index 0"),
+        (lambda band: band.average_forces([0.01], count="3"), "count must be a whole .*, got '3'"),
+    ],
+)
+def test_what_a_band_is_asked_for_is_checked(band, ask, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        ask(band)
+
+
 def test_bad_quantiles_are_one_line(band):
     with pytest.raises(InputError, match=r"^levels must lie from 0 to 1, got 5$"):
         band.quantiles((5, 95))
+    with pytest.raises(InputError, match=r"^levels must be in one row, got shape \(\)$"):
+        band.quantiles(0.5)
+    with pytest.raises(InputError, match=r"^levels must be an array of numbers, got '3'$"):
+        band.quantiles("3")
     with pytest.raises(
         InputError, match=f"^of must be one of {', '.join(REACTIONS)}, got 'truck'$"
     ):

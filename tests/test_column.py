@@ -463,6 +463,17 @@ def test_mass_at_the_top_enters_with_the_square_of_the_shape():
         ({"top_stiffness": -5.0}, "top_stiffness must not be negative, got -5"),
         ({"embedment": math.inf}, "embedment must be finite, got inf"),
         ({"steps": [3.0]}, r"steps must be Steps, got 3\.0"),
+        ({"steps": None}, "steps must be Steps, got None"),
+        ({"steps": 3}, "steps must be Steps, got 3"),
+        (
+            {"steps": [np.zeros((2, 2))]},
+            r"steps must be Steps, got array\(\[\[0\., 0\.\], \[0\., 0\.\]\]\)",
+        ),
+        ({"base": np.array([1.0, 2.0])}, r"base must be one of .*, got array\(\[1\., 2\.\]\)"),
+        (
+            {"section": np.zeros((2, 2))},
+            r"section must be a section such as .*, got array\(\[\[0\., 0\.\], \[0\., 0\.\]\]\)",
+        ),
         (
             {"steps": [Step(height=2.0, section=EXAMPLE["section"])] * 2},
             r"steps\[2\]\.height must be above 2 m and below the height 5 m, got 2 m: no part may "
@@ -507,7 +518,15 @@ def test_impact_off_the_column_or_on_a_support_is_refused(base, top, impact_heig
             call(impact_height)
 
 
-@pytest.mark.parametrize("z", [-0.1, 5.1, [1.0, math.nan]])
+@pytest.mark.parametrize("z", ["abc", 1j, {}, [1.0, math.nan]])
+def test_heights_that_are_no_numbers_are_refused(z):
+    struck = column("fixed", "pinned").struck_at(1.2)
+    for call in (struck.shape, struck.deflection):
+        with pytest.raises(InputError, match=r"^z must be (an array of numbers|finite), got "):
+            call(z)
+
+
+@pytest.mark.parametrize("z", [-0.1, 5.1, [1.0, 5.1]])
 def test_heights_off_the_column_are_refused(z):
     with pytest.raises(InputError, match=r"^z must be from 0 m to the height 5 m throughout$"):
         column("fixed", "pinned").struck_at(1.2).deflection(z)

@@ -114,6 +114,11 @@ def test_arrays_broadcast_and_agree_with_single_values():
         ((1.0, 0.1, 1.1, 0.05), "restitution must be at most 1, got 1.1"),
         ((1.0, 0.1, 0.4, 1.0), "damping_ratio must lie from 0 to below 1, got 1"),
         ((math.nan, 0.1, 0.4, 0.05), "frequency_ratio must be finite, got nan"),
+        (
+            ([1.0, 2.0], [1.0, 2.0, 3.0], 1.0, 0.0),
+            r"shapes must broadcast against each other, got frequency_ratio \(2,\), mass_ratio "
+            r"\(3,\), restitution \(\), damping_ratio \(\)",
+        ),
     ],
 )
 def test_bad_values_are_named(values, message):

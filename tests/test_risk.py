@@ -360,6 +360,20 @@ def test_what_gives_negative_masses_is_refused_unless_it_is_truncated():
         Distribution(law=stats.uniform(5.0, 1.0), words="u", status=None, low=7.0, high=9.0)
 
 
+def test_traffic_has_laws_and_a_risk_has_trucks():
+    traffic = jcss_traffic(1.0, 5.0)
+    with pytest.raises(InputError, match=r"^speed must be a Distribution, got None$"):
+        replace(traffic, speed=None)
+    weighed = WeighedTrucks(mass=np.array([9e3]))
+    assert replace(traffic, mass=weighed).mass is weighed
+    for name in ("speed", "deceleration", "angle"):
+        with pytest.raises(InputError, match=f"^{name} must be a Distribution, got Weighed"):
+            replace(traffic, **{name: weighed})
+    for trucks, shown in (([], r"\[\]"), (LIGHT, "Truck"), ([None], r"\[None\]"), (3, "3")):
+        with pytest.raises(InputError, match=f"^trucks must be one or more Trucks, got {shown}"):
+            risk(traffic, trucks, PIER)
+
+
 def test_weighed_trucks_keep_mass_and_speed_together():
     random = np.random.default_rng(1)
     mass = random.uniform(4e3, 40e3, 300)

@@ -115,7 +115,9 @@ def test_one_frequency():
         ({"pier_mass": 0.0}, "pier_mass must be positive, got 0"),
         ({"damping_ratio": 1.0}, "damping_ratio must lie from 0 to below 1, got 1"),
         ({"frequency": [1.0, 0.0]}, "frequency must be positive, got 0 at index 1"),
+        ({"frequency": [[1.0, 2.0]]}, r"frequency must be in one row, got shape \(1, 2\)"),
         ({"level": "rough"}, "level must be one of short, long, got 'rough'"),
+        ({"level": []}, r"level must be one of short, long, got \[\]"),
     ],
 )
 @pytest.mark.parametrize("which", SPECTRA)

@@ -3,6 +3,7 @@ import math
 import pickle
 import warnings
 
+import numpy as np
 import pytest
 
 from pierimpact import CrushSpring, InputError, Lognormal, MassRangeWarning, Truck, Uniform
@@ -57,6 +58,10 @@ def test_a_truck_is_heavier_than_its_engine(mass, message):
         ({"friction_on": "air"}, "friction_on must be one of road, pier, got 'air'"),
         ({"engine_spring": 150e3}, r"engine_spring must be a CrushSpring, got 150000\.0"),
         ({"body_spring": None}, "body_spring must be a CrushSpring, got None"),
+        (
+            {"body_spring": np.zeros((2, 1))},
+            r"body_spring must be a CrushSpring, got array\(\[\[0\.\], \[0\.\]\]\)",
+        ),
     ],
 )
 def test_bad_values_are_named(changes, message):

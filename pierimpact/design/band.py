@@ -13,7 +13,15 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.checks import InputError, brief, number, one_of, whole
+from pierimpact.checks import (
+    InputError,
+    brief,
+    finite_array,
+    one_of,
+    one_row,
+    positive_array,
+    whole,
+)
 from pierimpact.collision.averages import largest_average_force
 from pierimpact.collision.groups import repeat, select, single
 from pierimpact.collision.parameters import Collision, Parameters, Spring
@@ -108,15 +116,16 @@ class ReactionBand:
         InputError
             When a share is out of range, or `of` is none of them.
         """
-        for level in levels:
-            if not 0.0 <= number("levels", level) <= 1.0:
-                raise InputError(f"levels must lie from 0 to 1, got {level:g}")
+        shares = one_row("levels", finite_array("levels", levels))
+        for share in shares[(shares < 0.0) | (shares > 1.0)]:
+            raise InputError(f"levels must lie from 0 to 1, got {share:g}")
         values = getattr(self, one_of("of", of, REACTIONS))
         values = values[np.isfinite(values)]
-        return np.quantile(values, levels) if len(values) else np.full(len(levels), np.nan)
+        return np.quantile(values, shares) if len(values) else np.full(len(shares), np.nan)
 
     def sampled(self, index: int) -> Collision:
-        """Return one of the sampled collisions."""
+        """Return one of the sampled collisions, by its number from 0 on."""
+        index = whole("index", index, 0, len(self.engine) - 1)
         own = single(self.parameters, index)
         truck = truck_of(own, self.collision.truck)
         return replace(self.collision, truck=truck, speed=own.speed)
@@ -140,14 +149,24 @@ class ReactionBand:
         -------
         ndarray, shape (n, count)
             Averages, as in `largest_average_force` [N].
+
+        Raises
+        ------
+        InputError
+            When a window is not positive, there is none, or `count` is not a whole number above
+            zero.
         """
+        lengths = one_row("windows", positive_array("windows", windows)).tolist()
+        if not lengths:
+            raise InputError("windows must be one or more, got none")
+        count = whole("count", count, 1)
         collisions = [self.sampled(index) for index in range(min(count, len(self.engine)))]
         histories = [
-            simulate(own.truck, own.equivalent_pier, own.speed, duration=max(windows))
+            simulate(own.truck, own.equivalent_pier, own.speed, duration=max(lengths))
             for own in collisions
         ]
         return np.array(
-            [[largest_average_force(own, window).force for own in histories] for window in windows]
+            [[largest_average_force(own, window).force for own in histories] for window in lengths]
         )
 
 
@@ -183,7 +202,7 @@ def reaction_band(
     Raises
     ------
     InputError
-        As in `Collision`, and when the size is not positive or a spread breaks a rule.
+        As in `Collision`, and when the size is not from 1 to 2³⁰ or a spread breaks a rule.
 
     Examples
     --------
@@ -197,7 +216,7 @@ def reaction_band(
     True
     """
     collision = Collision(truck, pier, speed)
-    size, seed = whole("size", size, 1), whole("seed", seed, 0)
+    size, seed = whole("size", size, 1, 2**BITS), whole("seed", seed, 0)
     spreads = spreads_of(truck, spread)
     count, base = len(spreads), 2 ** max(round(math.log2(size / 4)), 0)
     a, b = sampled_factors(spreads, max(size, base), seed)

@@ -395,7 +395,8 @@ def calculation_of(level: str) -> Calculation:
     InputError
         When there is no such level.
     """
-    return LEVELS[one_of("level", ALIASES.get(level, level), tuple(LEVELS))]
+    name = ALIASES.get(level, level) if isinstance(level, str) else level
+    return LEVELS[one_of("level", name, tuple(LEVELS))]
 
 
 def by_symbol(parameters: Parameters) -> Values:

@@ -21,7 +21,7 @@ From the model to the reduction, step by step:
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import InputError, positive_array, ratio_array, told_from
+from pierimpact.checks import InputError, broadcast, positive_array, ratio_array, told_from
 from pierimpact.collision.parameters import Parameters, Spring, in_chunks
 from pierimpact.collision.propagation import propagate_all
 from pierimpact.collision.regimes import FREE, STEEP, Position, State, branch, start
@@ -59,7 +59,7 @@ def exact_amplification(
     Raises
     ------
     InputError
-        When a value is out of range.
+        When a value is out of range or the shapes do not broadcast.
     """
     beta = positive_array("frequency_ratio", frequency_ratio)
     mu = positive_array("mass_ratio", mass_ratio)
@@ -67,7 +67,8 @@ def exact_amplification(
     if np.any(e > 1.0):
         raise InputError(f"restitution must be at most 1, got {told_from(e.max(), 1.0)}")
     zeta = ratio_array("damping_ratio", damping_ratio)
-    arrays = np.broadcast_arrays(beta, mu, e, zeta)
+    named = {"frequency_ratio": beta, "mass_ratio": mu, "restitution": e, "damping_ratio": zeta}
+    arrays = broadcast(named)
     beta, mu, e, zeta = (array.reshape(-1) for array in arrays)
     # m_i = k_i = v_i = 1, so that the peak reaction is S.
     one = np.ones_like(beta)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import positive, positive_array
+from pierimpact.checks import one_row, positive, positive_array
 from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.collision.simulate import peak_reactions
 from pierimpact.design.procedure import amplification, calculation_of, design_values
@@ -119,7 +119,7 @@ def _spectrum(
 ) -> Spectrum:
     """Return the spectrum of the engine, i = 1, or of the cargo, i = 2."""
     calculation_of(level)  # an error here, before anything is calculated
-    frequency = np.atleast_1d(positive_array("frequency", frequency))
+    frequency = one_row("frequency", np.atleast_1d(positive_array("frequency", frequency)))
     pier_mass = positive("pier_mass", pier_mass)
     stiffness = stiffness_at_frequency(pier_mass, frequency)
     peaks = peak_reactions(truck, pier_mass, stiffness, damping_ratio, speed)

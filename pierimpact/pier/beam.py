@@ -1,14 +1,13 @@
 """The pier as a beam: natural modes of a Timoshenko beam, and the flexibility they leave out."""
 
 from dataclasses import dataclass, field
-from numbers import Integral
 from typing import TypeAlias
 
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from pierimpact.checks import InputError
+from pierimpact.checks import whole
 from pierimpact.pier.arrangement import Arrangement
 from pierimpact.pier.equivalent import EquivalentPier
 
@@ -17,6 +16,7 @@ Array: TypeAlias = NDArray[np.float64]
 # Numerical settings.
 HIGHEST_FREQUENCY = 2500.0  # up to which modes are kept [Hz]
 FEWEST_MODES, MOST_MODES = 8, 64
+MOST_ASKED = 200  # modes, far beyond those that a collision excites
 INTERVALS = 60  # about as many between the heights at which shear and moment are evaluated
 
 
@@ -103,11 +103,9 @@ def beam_pier(
     Raises
     ------
     InputError
-        When `modes` is not a whole number above zero.
+        When `modes` is not a whole number from 1 to 200.
     """
-    whole = isinstance(modes, Integral) and not isinstance(modes, bool)
-    if modes is not None and not (whole and modes > 0):
-        raise InputError(f"modes must be a whole number above zero, got {modes!r}")
+    modes = None if modes is None else whole("modes", modes, 1, MOST_ASKED)
     highest, count = 2.0 * np.pi * HIGHEST_FREQUENCY, modes or FEWEST_MODES
     elements = Elements(arrangement, count)
     omega, shapes = elements.modes()

@@ -10,7 +10,16 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.checks import InputError, not_negative, number, one_of, positive, told_from
+from pierimpact.checks import (
+    InputError,
+    brief,
+    finite_array,
+    not_negative,
+    number,
+    one_of,
+    positive,
+    told_from,
+)
 from pierimpact.handcalc import Calculation
 from pierimpact.pier.arrangement import SUPPORTS, Arrangement, Part, Support, refuse_mechanism
 from pierimpact.pier.beam import BeamPier, beam_pier
@@ -158,11 +167,14 @@ class PierColumn:
         one_of("base", self.base, END_CONDITIONS)
         one_of("top", self.top, END_CONDITIONS)
         refuse_mechanism(*self.supports)
-        object.__setattr__(self, "steps", tuple(self.steps))
+        try:
+            object.__setattr__(self, "steps", tuple(self.steps))
+        except TypeError:
+            raise InputError(f"steps must be Steps, got {brief(self.steps)}") from None
         below, least = 0.0, SHORTEST * self.height
         for place, step in enumerate(self.steps, 1):
             if not isinstance(step, Step):
-                raise InputError(f"steps must be Steps, got {step!r}")
+                raise InputError(f"steps must be Steps, got {brief(step)}")
             if not below + least <= step.height <= self.height - least:
                 raise InputError(
                     f"steps[{place}].height must be above {below:g} m and below the height "
@@ -434,7 +446,7 @@ class StruckColumn:
 
     def shape(self, z: ArrayLike) -> NDArray[np.float64]:
         """Shape function φ(z) = x(z)/x(z_n) (Eq. 2) at heights `z` [m], in the shape of `z` [-]."""
-        z = np.asarray(z, dtype=float)
+        z = finite_array("z", z)
         bottom, height = 0.0 - self.column.embedment, self.column.height
         if not np.all((z >= bottom) & (z <= height)):
             raise InputError(f"z must be from {bottom:g} m to the height {height:g} m throughout")
@@ -465,4 +477,6 @@ class StruckColumn:
 
 def _require_section(name: str, section: object) -> None:
     if not isinstance(section, Section):
-        raise InputError(f"{name} must be a section such as CircularSection(…), got {section!r}")
+        raise InputError(
+            f"{name} must be a section such as CircularSection(…), got {brief(section)}"
+        )

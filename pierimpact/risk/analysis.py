@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.checks import whole
+from pierimpact.checks import InputError, brief, whole
 from pierimpact.collision.groups import select, single
 from pierimpact.design.band import truck_of
 from pierimpact.design.study import full_model
@@ -209,10 +209,13 @@ def risk(
     Raises
     ------
     InputError
-        When size or seed is out of range.
+        When size or seed is out of range, or there is no truck.
     """
     size, seed = whole("samples", size, 1), whole("seed", seed, 0)
-    task = Task(traffic, tuple(trucks), pier, size, seed, tilted)
+    fleet = tuple(trucks) if isinstance(trucks, Sequence) else ()
+    if not (fleet and all(isinstance(truck, Truck) for truck in fleet)):
+        raise InputError(f"trucks must be one or more Trucks, got {brief(trucks)}")
+    task = Task(traffic, fleet, pier, size, seed, tilted)
     parts = []
     for part in run(partial(strikes_of, task), range(-(-size // BLOCK))):
         parts.append(part)

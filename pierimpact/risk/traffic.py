@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.certainty import Certainty
-from pierimpact.checks import InputError, not_negative, one_of, positive
+from pierimpact.checks import InputError, brief, not_negative, one_of, positive
 from pierimpact.design.codes import JCSS_STIFFNESS
 from pierimpact.risk.distributions import Distribution
 from pierimpact.risk.laws import Lognormal, Normal, Rayleigh
@@ -140,7 +140,7 @@ class Traffic:
     Raises
     ------
     InputError
-        When a number is out of range.
+        When a number is out of range or a law of another type.
     """
 
     trucks: float
@@ -156,6 +156,12 @@ class Traffic:
         rules = dict.fromkeys(("trucks", "width", "encroachment_rate"), positive)
         for name, rule in {**rules, "distance": not_negative}.items():
             object.__setattr__(self, name, rule(name, getattr(self, name)))
+        for name in ("mass", "speed", "deceleration", "angle"):
+            law = getattr(self, name)
+            if isinstance(law, WeighedTrucks) and name == "mass":
+                continue
+            if not isinstance(law, Distribution):
+                raise InputError(f"{name} must be a Distribution, got {brief(law)}")
 
     @property
     def stretch(self) -> float:

@@ -98,7 +98,7 @@ class Truck:
         one_of("friction_on", self.friction_on, FRICTION_ENDS)
         for name in SPRINGS:
             if not isinstance(getattr(self, name), CrushSpring):
-                raise InputError(f"{name} must be a CrushSpring, got {getattr(self, name)!r}")
+                raise InputError(f"{name} must be a CrushSpring, got {brief(getattr(self, name))}")
         object.__setattr__(self, "spread", checked_spreads(self.spread, QUANTITIES))
         if self.mass_range is not None:
             object.__setattr__(self, "mass_range", _upward(self.mass_range))
