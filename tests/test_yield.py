@@ -154,6 +154,17 @@ def test_a_pier_that_is_strong_enough_is_elastic(case):
     assert [infinite[name].item() for name in ("ductility", "plastic_energy")] == [0.0, 0.0]
 
 
+@pytest.mark.parametrize("resistance", [1e16, 1e18, 1e30])
+def test_a_pier_that_is_beyond_strong_is_hardly_strained(resistance):
+    mass, stiffness = 8e3, 1e8
+    pier = EquivalentPier(mass=mass, stiffness=stiffness, yield_reaction=resistance)
+    history = simulate(TRUCK, pier, 22.2)
+    expected = np.abs(history.reaction).max() / resistance
+    assert history.ductility == pytest.approx(expected, rel=1e-3)
+    peaks = peak_reactions(TRUCK, mass, stiffness, pier.damping_ratio, 22.2, resistance)
+    assert peaks.ductility == pytest.approx(history.ductility, rel=1e-9)
+
+
 @pytest.mark.parametrize("case", collisions(2, seed=62))
 def test_a_rigid_plastic_pier_stops_the_truck_at_its_resistance(case):
     """JCSS Probabilistic Model Code 2.18: a force F_y for a time m v/F_y, in total momentum."""

@@ -189,8 +189,10 @@ class CollisionHistory:
         The displacement is measured from where the pier stood at first touch, in either direction.
         Up to 1 the pier stays elastic.
         """
-        yielding = self.end.yielding
-        return 0.0 if yielding is None else yielding.largest / yielding.limit
+        yielding, pier = self.end.yielding, self.pier
+        if yielding is None:
+            return 0.0
+        return float(pier.stiffness * yielding.largest / pier.yield_reaction)
 
     @property
     def residual_displacement(self) -> float:
