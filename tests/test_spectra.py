@@ -11,7 +11,14 @@ import two_degrees
 from calculator import Procedure, closed_spectrum
 from generated_collisions import collisions
 
-from pierimpact import InputError, cargo_spectrum, engine_spectrum, load_truck
+from pierimpact import (
+    EquivalentPier,
+    InputError,
+    cargo_spectrum,
+    engine_spectrum,
+    load_truck,
+    simulate,
+)
 from pierimpact.design.spectra import FREQUENCIES
 
 TRUCK = load_truck("single-unit-8t")
@@ -90,8 +97,13 @@ def test_without_contact_there_is_no_cargo_spectrum():
     for route in (found.full_model, found.two_degrees, found.closed_form):
         assert np.isnan(route).all()
     assert np.isfinite(found.exact).all()
-    engine = engine_spectrum(TRUCK, 6.0, MASS, ZETA, FEW)
-    assert np.isfinite(engine.full_model).all()
+    # Nor contact of the engine, of which there are the plateau peaks.
+    pier = EquivalentPier.from_frequency(MASS, 30.0)
+    assert simulate(TRUCK, pier, 3.0).engine_contact_time is None
+    for speed in (3.0, 6.0):
+        engine = engine_spectrum(TRUCK, speed, MASS, ZETA, FEW)
+        for route in (engine.full_model, engine.two_degrees, engine.closed_form):
+            assert np.isfinite(route).all()
 
 
 def test_a_stiff_pier_feels_the_engine_and_a_soft_one_the_cargo():

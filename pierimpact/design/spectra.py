@@ -23,8 +23,8 @@ FREQUENCIES = np.geomspace(2.0, 200.0, 200)
 class Spectrum(NamedTuple):
     """A reaction spectrum for one truck, speed, pier mass and damping.
 
-    Each array has the shape of `frequency`; reactions are nan where the body does not meet the
-    pier, by that route.
+    Each array has the shape of `frequency`. Where the cargo does not meet the pier, by that route,
+    its reaction is nan; where the engine does not, its reaction is the plateau peak.
 
     Examples
     --------
