@@ -5,8 +5,9 @@ import re
 import sys
 from decimal import Decimal
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
+from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 from pierimpact.checks import InputError, brief, did_you_mean
@@ -84,14 +85,34 @@ _PRIMES = str.maketrans("′’″”", "''\"\"")
 def _pint() -> Any:
     """Import pint, without Dask, which it would load where that is installed, for nothing here."""
     modules: dict[str, Any] = sys.modules
-    absent = "dask" not in modules
-    if absent:
-        modules["dask"] = None  # the import of such a name fails
-    try:
+    if "pint" in modules or "dask" in modules or find_spec("dask") is None:
         return import_module("pint")
+    modules["dask"] = None  # the import of such a name fails
+    try:
+        pint = import_module("pint")
     finally:
-        if absent:
-            del modules["dask"]
+        del modules["dask"]
+    # What pint knows of Dask in its place, for others in this process who use the two together.
+    facet = import_module("pint.facets.dask")
+    vars(facet)["dask_array"] = _Later("dask.array")
+    for name in ("compute", "persist", "visualize"):
+        vars(facet)[name] = partial(_call, "dask", name)
+    return pint
+
+
+class _Later:
+    """A module that is imported when something of it is asked for."""
+
+    def __init__(self, module: str) -> None:
+        self._module = module
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(import_module(self._module), name)
+
+
+def _call(module: str, name: str, *arguments: object, **more: object) -> object:
+    """Call a function of a module, which is imported then."""
+    return getattr(import_module(module), name)(*arguments, **more)
 
 
 @cache

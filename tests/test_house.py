@@ -47,6 +47,30 @@ def test_import_loads_nothing_heavy():
     assert done.stdout.strip() == "[]"
 
 
+def test_pint_loads_no_dask_and_works_with_it_all_the_same():
+    program = """
+import sys
+from pierimpact.units import parse
+parse("x", "3 ft", "length")
+assert "dask" not in sys.modules
+import pint
+import dask.array
+assert "dask.base" in sys.modules
+length = pint.UnitRegistry().Quantity(dask.array.ones(3), "m")
+print(length.compute().sum(), dask.compute(length)[0].sum(), length.persist().compute().sum())
+try:
+    pint.UnitRegistry().Quantity(3, "m").compute()
+except AttributeError as error:
+    print(error)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=HOUSE, capture_output=True, text=True, check=True
+    )
+    sums, refused = done.stdout.splitlines()
+    assert sums == "3.0 meter 3.0 meter 3.0 meter"
+    assert refused.startswith("Method compute only implemented for objects of")
+
+
 def test_every_public_name_is_there():
     import pierimpact
 
