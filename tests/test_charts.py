@@ -6,10 +6,10 @@ import re
 import numpy as np
 import pytest
 from in_node import contents_of, in_node
+from one_at_a_time import one_at_a_time
 
 from pierimpact import design_reaction, widgets
 from pierimpact.design import domain
-from pierimpact.design.band import one_at_a_time
 from pierimpact.design.codes import code_forces
 from pierimpact.design.procedure import LEVELS, amplification, by_symbol, design_values
 from pierimpact.design.reduction import exact_amplification

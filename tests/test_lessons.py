@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from in_node import contents_of, in_node
+from one_at_a_time import one_at_a_time
 from reference import solve
 from test_page import as_arguments
 
 from pierimpact import EquivalentPier, load_truck, peak_reactions
-from pierimpact.design.band import one_at_a_time
 from pierimpact.design.codes import aashto_lrfd
 from pierimpact.design.procedure import design_values
 from pierimpact.design.reduction import exact_amplification

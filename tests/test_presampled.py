@@ -10,11 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from in_node import contents_of, in_node
 from scipy import stats
+from traffic_of_jcss import jcss_traffic
 
 from pierimpact import EquivalentPier, load_truck
 from pierimpact.risk.analysis import risk
 from pierimpact.risk.laws import Lognormal
-from pierimpact.risk.traffic import YEAR, jcss_speed, jcss_traffic
+from pierimpact.risk.traffic import YEAR, jcss_speed
 from pierimpact.teaching import presampled, widgets
 from pierimpact.teaching.questions import LESSONS
 from pierimpact.teaching.questions.risk import shares

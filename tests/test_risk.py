@@ -10,6 +10,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy import stats
+from traffic_of_jcss import jcss_traffic
 
 from pierimpact import EquivalentPier, load_truck, peak_reactions
 from pierimpact.checks import InputError
@@ -25,7 +26,6 @@ from pierimpact.risk.traffic import (
     WeighedTrucks,
     jcss_mass,
     jcss_speed,
-    jcss_traffic,
 )
 
 LIGHT, HEAVY = load_truck("single-unit-8t"), load_truck("tractor-trailer-36t")

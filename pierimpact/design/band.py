@@ -249,27 +249,6 @@ def reaction_band(
     )
 
 
-def one_at_a_time(collision: Collision, spreads: Mapping[str, Spread]) -> Reactions:
-    """Return the reactions with one parameter at a time at either end of its spread.
-
-    Parameters
-    ----------
-    collision : Collision
-        With every parameter at its value.
-    spreads : mapping of str to Spread, length n
-        By parameter, as in `reaction_band`.
-
-    Returns
-    -------
-    Reactions
-        Arrays of shape (n, 2), the lower end first.
-    """
-    ends = _ends(spreads)
-    same = repeat(collision.parameters, ends.shape[1])
-    reactions = full_model(with_factors(same, spreads, ends))
-    return Reactions(*(values.reshape(-1, 2) for values in reactions))
-
-
 def sobol_indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:
     """Return total and first-order Sobol indices, each of shape (n,), from 0 to 1 [-].
 

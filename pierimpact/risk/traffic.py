@@ -7,7 +7,6 @@ all. JCSS, Part 2, 2.18.
 """
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import TypeAlias
@@ -201,14 +200,3 @@ class Traffic:
         # The sine of the smallest angle may be zero, where the pier stands beside the road.
         lost = lost if self.distance else np.zeros_like(speed)
         return chance, np.sqrt(np.maximum(speed**2 - lost, 0.0))
-
-
-def jcss_traffic(trucks: float, distance: float, **others: object) -> Traffic:
-    """Return traffic with the laws of JCSS for what is not given; arguments as of `Traffic`."""
-    laws: Mapping[str, object] = {
-        "mass": jcss_mass(),
-        "speed": jcss_speed(),
-        "deceleration": jcss_deceleration(),
-        "angle": jcss_angle(),
-    }
-    return Traffic(trucks=trucks, distance=distance, **{**laws, **others})  # type: ignore[arg-type]
