@@ -140,6 +140,9 @@ def test_two_records_and_a_pier_without_output(tmp_path, capsys):
          "the ending of --figure must be one of pdf, png, svg, got 'doc'"),
         (["--speed", "80 km/h", "--output", "no/folder/truck.toml"],
          "cannot be written to: there is no folder"),
+        (["--speed", "80 km/h", "--output", "record.csv"],
+         "--output must be the name of a .toml file, got 'record.csv'"),
+        (["--speed", "80 km/h", "--output", "."], "--output must be the name of a .toml file"),
     ],
 )  # fmt: skip
 def test_bad_options_are_one_line_and_code_2(tmp_path, monkeypatch, capsys, options, words):
@@ -151,6 +154,41 @@ def test_bad_options_are_one_line_and_code_2(tmp_path, monkeypatch, capsys, opti
     assert words in printed.err
     assert len(printed.err.splitlines()) == 1
     assert len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.parametrize("option", ["--output", "--figure"])
+def test_a_file_that_is_there_is_replaced_by_force_alone(tmp_path, monkeypatch, capsys, option):
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path / "record.csv", *record_of(START, 22.2))
+    there = Path("there.toml" if option == "--output" else "there.svg")
+    there.write_text("by hand", encoding="utf-8")
+    command = ["fit", "record.csv", "--speed", "80 km/h", option, str(there)]
+    assert cli.main(command) == 2
+    assert capsys.readouterr().err == (
+        f"pierimpact: {there} is there already: give --force to replace it\n"
+    )
+    assert there.read_text(encoding="utf-8") == "by hand"
+    assert cli.main([*command, "--force"]) == 0
+    assert there.read_text(encoding="utf-8") != "by hand"
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["record.svg", "--figure", "record.svg"],
+        ["record.svg", "--case", "case.svg", "--figure", "case.svg"],
+        ["record.svg", "--start", "own.toml", "--output", "own.toml"],
+        ["record.svg", "--start", "own.toml", "--output", "link.toml"],
+    ],
+)
+def test_what_is_read_is_never_replaced(tmp_path, monkeypatch, capsys, command):
+    monkeypatch.chdir(tmp_path)
+    for name in ("record.svg", "case.svg", "own.toml"):
+        Path(name).write_text("by hand", encoding="utf-8")
+    Path("link.toml").symlink_to("own.toml")
+    assert cli.main(["fit", *command, "--speed", "80 km/h", "--force"]) == 2
+    assert f"{command[-1]} is read, and cannot be written to" in capsys.readouterr().err
+    assert {path.read_text(encoding="utf-8") for path in tmp_path.iterdir()} == {"by hand"}
 
 
 def test_a_bad_record_is_one_line_and_code_2(tmp_path, capsys):

@@ -5,7 +5,6 @@ import json
 from pathlib import Path
 from typing import Any
 
-from pierimpact.checks import InputError
 from pierimpact.cli.terminal import needs
 from pierimpact.units import SYSTEMS
 
@@ -76,17 +75,12 @@ def add_schema(commands: Any) -> None:
 def _new(options: argparse.Namespace) -> int:
     try:
         from pierimpact.files.new_case import new_case_for
-        from pierimpact.files.write import write_files
+        from pierimpact.files.write import refuse_to_replace, write_files
     except ModuleNotFoundError as error:
         return needs("case files", error)
     path = Path(options.case)
     text = new_case_for(path, options.shape, options.units)
-    if path.is_dir():
-        raise InputError(f"{path} is a folder: name a file in it")
-    if path.exists() and not options.force:
-        raise InputError(f"{path} is there already: give --force to replace it")
-    if not path.parent.is_dir():
-        raise InputError(f"{path} cannot be written to: there is no folder {path.parent}")
+    refuse_to_replace(path, force=options.force)
     write_files({path: text.encode()})
     print(path)
     return 0

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from pierimpact.checks import InputError, one_of
+from pierimpact.checks import InputError, brief, one_of
 from pierimpact.cli.terminal import needs, progress_bar
 from pierimpact.files.limits import PIER_MASS, PIER_STIFFNESS, POSSIBLE, within
 from pierimpact.pier.equivalent import DAMPING_RATIO, EquivalentPier
@@ -15,7 +15,7 @@ Fit the crush-law parameters of a truck to force records, measured or from finit
 record is a CSV file with a heading such as: time [ms], contact force [kN]; the force may also be
 the reaction. Total mass, speed and pier count as known; without a pier it is rigid. The table has
 every parameter with its start, its fitted value with the standard error, and what the records do
-not show, which stays at its start.
+not show, which stays at its start. Files that are there are kept, unless --force is given.
 """
 _RANGES = {
     "speed": POSSIBLE["speed"],
@@ -81,11 +81,12 @@ def add_fit(commands: Any) -> None:
     }  # fmt: skip
     for name, option in options.items():
         fit.add_argument(f"--{name}", **option)
+    fit.add_argument("--force", action="store_true", help="replace files that are there")
     fit.set_defaults(run=_fit)
 
 
 def _fit(options: argparse.Namespace) -> int:
-    from pierimpact.files.write import write_files
+    from pierimpact.files.write import refuse_to_replace, write_files
     from pierimpact.report.fit import Treatment, fit_files, fit_table
 
     treatment = Treatment(
@@ -101,9 +102,13 @@ def _fit(options: argparse.Namespace) -> int:
             from pierimpact.plots.fit import draw_fit
         except ModuleNotFoundError as error:
             return needs("figures", error)
-    for path in (output, figure):
-        if path and not path.parent.is_dir():
-            raise InputError(f"{path} cannot be written to: there is no folder {path.parent}")
+    if output and output.suffix != ".toml":
+        raise InputError(f"--output must be the name of a .toml file, got {brief(str(output))}")
+    for path in filter(None, (output, figure)):
+        for given in (*options.records, *(options.case or ()), options.start):
+            if path.exists() and Path(given).exists() and path.samefile(given):
+                raise InputError(f"{path} is read, and cannot be written to")
+        refuse_to_replace(path, force=options.force)
     with progress_bar("collisions") as progress:
         fitted = fit_files(
             options.records,

@@ -56,6 +56,22 @@ def write_files(contents: Mapping[Path, bytes]) -> None:
         raise InputError(f"{path} cannot be written to: {error.strerror}") from None
 
 
+def refuse_to_replace(path: Path, *, force: bool = False) -> None:
+    """Refuse to write a file where there is one, unless forced, or where there can be none.
+
+    Raises
+    ------
+    InputError
+        When it must not be written.
+    """
+    if path.is_dir():
+        raise InputError(f"{path} is a folder: name a file in it")
+    if path.exists() and not force:
+        raise InputError(f"{path} is there already: give --force to replace it")
+    if not path.parent.is_dir():
+        raise InputError(f"{path} cannot be written to: there is no folder {path.parent}")
+
+
 @contextmanager
 def temporary_folder(folder: Path) -> Iterator[Path]:
     """Make a temporary folder in a folder, for new files that are to be put in place there.
