@@ -306,7 +306,7 @@ def test_trucks_of_ones_own(tmp_path, capsys):
     [
         ("page.yaml", ["single-unit-8t"], "must be the name of an .html file, got "),
         ("nowhere/page.html", ["single-unit-8t"], "there is no folder "),
-        ("folder.html", ["single-unit-8t"], "there is a folder of that name"),
+        ("folder.html", ["single-unit-8t"], "what is there is no file"),
         ("page.html", ["single-unit-8"], "did you mean single-unit-8t?"),
         ("page.html", ["single-unit-8t", "single-unit-8t"], "must have names of their own"),
         ("page.html", ["none.toml"], "cannot be read"),
@@ -323,6 +323,23 @@ def test_bad_input_is_one_line_and_leaves_all_as_it_is(page, trucks, words, tmp_
     assert words in printed.err
     assert sorted(tmp_path.rglob("*")) == before
     assert (tmp_path / "page.html").read_text(encoding="utf-8") == "mine"
+
+
+def test_a_page_that_somebody_changed_is_replaced_by_force_alone(tmp_path, capsys):
+    page = tmp_path / "page.html"
+    assert cli.main(["page", str(page)]) == cli.main(["page", str(page)]) == 0
+    page.write_text("mine", encoding="utf-8")
+    assert cli.main(["page", str(page)]) == 2
+    assert "page.html was not written by pierimpact, or changed" in capsys.readouterr().err
+    assert page.read_text(encoding="utf-8") == "mine"
+    assert cli.main(["page", str(page), "--force"]) == 0
+    assert page.read_text(encoding="utf-8") != "mine"
+
+
+def test_the_help_names_the_truck_of_a_page(capsys):
+    with pytest.raises(SystemExit):
+        cli.main(["page", "--help"])
+    assert "(default: single-unit-8t)" in " ".join(capsys.readouterr().out.split())
 
 
 def test_a_page_needs_a_truck():

@@ -21,6 +21,7 @@ from pierimpact.design.static_forces import StaticForcesInCollision
 from pierimpact.files.case import case_from, read_case_file
 from pierimpact.files.piers import read_pier_table
 from pierimpact.files.trucks import load_truck
+from pierimpact.files.unchanged import write_unchanged
 from pierimpact.network import files, workers
 from pierimpact.network import portfolio as portfolio_module
 from pierimpact.network.piece import Task, calculate_beams, calculate_piece
@@ -329,7 +330,7 @@ def test_the_worst_piers_get_sheets_of_their_own(tmp_path, here, monkeypatch):
     found = calculate_portfolio(table, folder, beams="asked")
     cases = []
 
-    def reports(paths, into):
+    def reports(paths, into, **_):
         cases.extend(read_case_file(path).case for path in paths)
         made = [SimpleNamespace(html=into / f"{path.stem}.html") for path in paths]
         return SimpleNamespace(reports=made, failures=[])
@@ -343,3 +344,62 @@ def test_the_worst_piers_get_sheets_of_their_own(tmp_path, here, monkeypatch):
     assert written[-2:] == [folder / "sheets" / name for name in names]
     page = (folder / "summary.html").read_text()
     assert all(f'"sheets/{name}"' in page for name in names)
+
+
+def command(path, folder, *options):
+    return ["portfolio", str(path), "--output", str(folder), "--beams", "asked", *options]
+
+
+def test_the_table_itself_is_never_replaced(tmp_path, here, capsys):
+    path = tmp_path / "results.csv"
+    path.write_text(f"{HEADING}\n{ROWS}")
+    assert main(command(path, tmp_path, "--force")) == 2
+    assert capsys.readouterr().err == (
+        f"pierimpact: {path} is the table itself: give another folder as --output\n"
+    )
+    assert path.read_text() == f"{HEADING}\n{ROWS}"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_results_that_somebody_changed_are_replaced_by_force_alone(tmp_path, here, capsys):
+    path, folder = tmp_path / "piers.csv", tmp_path / "out"
+    path.write_text(f"{HEADING}\n{ROWS}")
+    assert main(command(path, folder)) == main(command(path, folder)) == 0
+    results = folder / "results.csv"
+    before = results.read_bytes()
+    results.write_text("mine")
+    assert main(command(path, folder)) == 2
+    assert "results.csv was not written by pierimpact, or changed" in capsys.readouterr().err
+    assert results.read_text() == "mine"
+    assert main(command(path, folder, "--force")) == 0
+    assert results.read_bytes() == before
+
+
+def test_sheets_of_earlier_runs_go_unless_somebody_changed_them(
+    tmp_path, here, monkeypatch, capsys
+):
+    def reports(paths, into, **_):
+        texts = {f"{path.stem}.html": path.read_bytes() for path in paths}
+        made = [SimpleNamespace(html=file) for file in write_unchanged(texts, into)]
+        return SimpleNamespace(reports=made, failures=[])
+
+    monkeypatch.setattr(files, "write_reports", reports)
+    path, folder = tmp_path / "piers.csv", tmp_path / "out"
+    path.write_text(f"{HEADING}\n{ROWS}")
+    assert main(command(path, folder, "--sheets", "2")) == 0
+    before = sorted(file.name for file in (folder / "sheets").iterdir())
+    changed = next((folder / "sheets").glob("2-*.html"))
+    changed.write_text("mine")
+    path.write_text(f"{HEADING}\n{ROWS}".replace("\nP", "\nQ").replace('"P,2', '"Q,2'))
+    assert main(command(path, folder, "--sheets", "2")) == 0
+    assert capsys.readouterr().err == (
+        f"pierimpact: {changed} is of an earlier run, and stays because somebody changed it\n"
+    )
+    assert changed.read_text() == "mine"
+    assert sorted(file.name for file in (folder / "sheets").iterdir()) == sorted(
+        [changed.name, *(name.replace("-P", "-Q") for name in before)]
+    )
+    assert main(command(path, folder)) == 0
+    assert {file.name for file in (folder / "sheets").iterdir()} == {
+        changed.name, ".pierimpact.json"
+    }  # fmt: skip

@@ -312,11 +312,21 @@ def test_the_command_writes_both_files_or_none(tmp_path, capsys):
     printed = capsys.readouterr()
     assert printed.err == ""
     assert "JCSS, urban: lognormal, 40 ± 7" in printed.out
-    assert sorted(file.name for file in out.iterdir()) == ["pier-risk.csv", "pier-risk.html"]
+    assert sorted(file.name for file in out.iterdir()) == [
+        ".pierimpact.json", "pier-risk.csv", "pier-risk.html"
+    ]  # fmt: skip
     page = (out / "pier-risk.html").read_text("utf-8")
     assert "<script" not in page
     sources = re.findall(r'(?:src|srcset)="([^"]*)"', page)
     assert all(source.startswith("data:image/") for source in sources)
+    (out / "pier-risk.csv").write_text("mine")
+    assert cli.main(arguments) == 2
+    assert (
+        "pier-risk.csv was not written by pierimpact, or changed since" in capsys.readouterr().err
+    )
+    assert (out / "pier-risk.csv").read_text() == "mine"
+    assert cli.main([*arguments, "--force"]) == 0
+    assert cli.main(arguments) == 0
     taken = tmp_path / "file"
     taken.write_text("mine")
     assert cli.main([*arguments[:-1], str(taken)]) == 2

@@ -15,7 +15,8 @@ The columns are id and the keys of a case file, with the unit in the heading, su
 speed [km/h], or in each cell; latitude and longitude in degrees may be among them. Writes
 results.csv, results.parquet, rejects.csv (rows with errors, which stop nothing) and summary.html
 with distributions, a map and a table. Interrupted and run again, it goes on where it was; what it
-needs for that is in DIR/pieces, which may be deleted.
+needs for that is in DIR/pieces, which may be deleted. Results that are there already are replaced,
+and sheets that are of this table no longer removed, unless somebody changed them.
 """
 _EPILOG = """\
 A row costs about a millisecond of one core; as a beam, some 100 ms more. Exit code: 0 if the
@@ -53,6 +54,9 @@ def add_portfolio(commands: Any) -> None:
         help="units of the results: SI or US (default: %(default)s)",
     )  # fmt: skip
     add_workers(portfolio)
+    portfolio.add_argument(
+        "--force", action="store_true", help="replace files that somebody changed, too"
+    )
     portfolio.set_defaults(run=_portfolio)
 
 
@@ -70,7 +74,7 @@ def add_workers(command: argparse.ArgumentParser) -> None:
 def _portfolio(options: argparse.Namespace) -> int:
     try:
         from pierimpact.files.piers import read_pier_table
-        from pierimpact.network.files import write_portfolio
+        from pierimpact.network.files import refuse_portfolio, write_portfolio
         from pierimpact.network.portfolio import calculate_portfolio
         from pierimpact.network.workers import LostWorkersError
     except ModuleNotFoundError as error:
@@ -78,6 +82,7 @@ def _portfolio(options: argparse.Namespace) -> int:
     if options.sheets < 0:
         raise InputError(f"--sheets must not be negative, got {options.sheets}")
     table, folder = read_pier_table(options.table), Path(options.output)
+    refuse_portfolio(table, folder, force=options.force)
     try:
         with progress_bars() as progress:
             portfolio = calculate_portfolio(
@@ -95,7 +100,13 @@ def _portfolio(options: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         raise KeyboardInterrupt("run again to go on from here") from None
     files = write_portfolio(
-        portfolio, table, folder, system=options.units, sheets=options.sheets, say=complain
+        portfolio,
+        table,
+        folder,
+        system=options.units,
+        sheets=options.sheets,
+        force=options.force,
+        say=complain,
     )
     print(*files, sep="\n")
     if portfolio.rejects:

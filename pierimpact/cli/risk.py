@@ -15,7 +15,8 @@ Say how often a year a truck of the traffic strikes the pier of a case, and how 
 exceeds a value: trucks leave the road, brake and strike as in the JCSS Probabilistic Model Code,
 each collision by the full model. The case must give traffic_volume, truck_share and
 distance_from_road; `pierimpact new` writes all keys of the traffic with what they mean. With
---output, a page and the curve as CSV are written, NAME-risk.html and NAME-risk.csv.
+--output, a page and the curve as CSV are written, NAME-risk.html and NAME-risk.csv, unless somebody
+changed those that are there.
 """
 _EXIT_CODES = """\
 Exit code: 0, whatever the risk; 2 if the input is bad; 1 if anything failed. The same seed gives
@@ -43,6 +44,9 @@ def add_risk(commands: Any) -> None:
     for name, option in options.items():
         risk.add_argument(f"--{name}", **option)
     add_workers(risk)
+    risk.add_argument(
+        "--force", action="store_true", help="replace files that somebody changed, too"
+    )
     risk.add_argument("--json", action="store_true", help="print a JSON object, in SI units")
     risk.set_defaults(run=_risk)
 
@@ -64,6 +68,11 @@ def _risk(options: argparse.Namespace) -> int:
     output = Path(options.output) if options.output else None
     if output and output.exists() and not output.is_dir():  # before the work, not after it
         raise InputError(f"output {output} must be a folder, and there is a file")
+    if output:
+        from pierimpact.files.unchanged import refuse_changed
+        from pierimpact.report.risk_page import risk_files, write_risk
+
+        refuse_changed(output, risk_files(path.stem), force=options.force)
     try:
         with _run(options, size) as run, progress_bar("collisions", size) as progress:
             result = case_risk(case, size, seed, run=run, progress=progress)
@@ -72,9 +81,7 @@ def _risk(options: argparse.Namespace) -> int:
         return 1
     files: list[Path] = []
     if output:
-        from pierimpact.report.risk_page import write_risk
-
-        files = write_risk(path.stem, result, output)
+        files = write_risk(path.stem, result, output, force=options.force)
     print((risk_json if options.json else risk_text)(str(path), result))
     if not options.json:
         print(*files, sep="\n")

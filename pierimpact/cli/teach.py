@@ -16,7 +16,8 @@ right answers in total, and for each question whether it is right and after how 
 _COLLECT_EXIT_CODES = "Exit code: 0 if any file was read; 2 if none was; 1 if anything failed."
 _PAGE = """\
 Write one HTML file that shows what the pier's frequency does to the peaks of engine and cargo. It
-solves the collisions itself and needs neither Python nor a network.
+solves the collisions itself and needs neither Python nor a network. A page that is there already is
+replaced, unless somebody changed it.
 """
 
 
@@ -80,8 +81,10 @@ def add_page(commands: Any) -> None:
         metavar="TRUCK",
         nargs="+",
         default=["single-unit-8t"],
-        help="trucks to choose from: names of the catalogue or truck files (default: %(default)s)",
+        help="trucks to choose from: names of the catalogue or truck files (default: "
+        "single-unit-8t)",
     )
+    page.add_argument("--force", action="store_true", help="replace a file that somebody changed")
     page.set_defaults(run=_page)
 
 
@@ -115,5 +118,5 @@ def _page(options: argparse.Namespace) -> int:
         from pierimpact.teaching.page import write_page
     except ModuleNotFoundError as error:
         return needs("pages", error)
-    print(write_page(options.page, options.trucks))
+    print(write_page(options.page, options.trucks, force=options.force))
     return 0

@@ -6,13 +6,13 @@ Their folder has a hidden file with the SHA-256 of each as it was written.
 import hashlib
 import json
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
 from pierimpact.checks import InputError
 from pierimpact.files.locks import locked
-from pierimpact.files.write import clean, move
+from pierimpact.files.write import clean, move, temporary_folder
 
 RECORD = ".pierimpact.json"  #: the hidden file
 
@@ -51,6 +51,33 @@ def put_unchanged(files: Sequence[Path], folder: Path, *, force: bool = False) -
         return move([*files, new], folder)[:-1]
 
 
+def write_unchanged(
+    contents: Mapping[str, bytes], folder: Path, *, force: bool = False
+) -> list[Path]:
+    """Write files of a folder by their names, all or none, and record what they are.
+
+    Parameters
+    ----------
+    contents : mapping of str to bytes
+        What comes into each.
+    folder, force
+        As in `put_unchanged`; the folder exists.
+
+    Raises
+    ------
+    InputError
+        When one cannot be written, or must not be replaced.
+    """
+    try:
+        with temporary_folder(folder) as temporary:
+            files = [temporary / name for name in contents]
+            for file in files:
+                file.write_bytes(contents[file.name])
+            return put_unchanged(files, folder, force=force)
+    except OSError as error:
+        raise InputError(f"{folder} cannot be written to: {error.strerror}") from None
+
+
 def refuse_changed(folder: Path, names: Iterable[str], *, force: bool = False) -> None:
     """Refuse to replace files of a folder that somebody changed, or that others wrote.
 
@@ -74,6 +101,11 @@ def refuse_changed(folder: Path, names: Iterable[str], *, force: bool = False) -
         with locked(folder):
             clean(folder)
             _refuse(folder, names, force)
+
+
+def written_before(folder: Path) -> list[Path]:
+    """Return the files of a folder that were written by earlier runs, changed since or not."""
+    return [folder / name for name in sorted(_recorded(folder)) if (folder / name).is_file()]
 
 
 def remove_unchanged(file: Path) -> None:

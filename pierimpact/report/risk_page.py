@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import pierimpact
-from pierimpact.files.write import put_in_place
+from pierimpact.files.unchanged import put_unchanged
 from pierimpact.plots.risk import draw_exceedance, draw_feared, reactions
 from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph, TitleBlock
 from pierimpact.report.document.markup import Code, Inline, Tex
@@ -34,7 +34,14 @@ _FREQUENCIES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 _ROWS = 200
 
 
-def write_risk(name: str, result: CaseRisk, output_dir: str | Path) -> list[Path]:
+def risk_files(name: str) -> list[str]:
+    """Return the names of the files of a risk: that of the page, and that of the curve."""
+    return [f"{name}-risk.{ending}" for ending in ("html", "csv")]
+
+
+def write_risk(
+    name: str, result: CaseRisk, output_dir: str | Path, *, force: bool = False
+) -> list[Path]:
     """Write NAME-risk.html and NAME-risk.csv, both or none, and return where they are.
 
     Parameters
@@ -45,18 +52,21 @@ def write_risk(name: str, result: CaseRisk, output_dir: str | Path) -> list[Path
         Its risk.
     output_dir : str or Path
         Folder to write to; created if it does not exist.
+    force : bool, optional
+        Whether to replace files that somebody changed since they were written.
 
     Raises
     ------
-    OutputError
-        When the folder cannot be written to.
+    InputError
+        When somebody changed a file that would be replaced, or the folder cannot be written to,
+        which is an OutputError.
     """
     output_dir = Path(output_dir).absolute()
     with folder_for(output_dir) as folder:
-        page, curve = (folder / f"{name}-risk.{ending}" for ending in ("html", "csv"))
+        page, curve = (folder / file for file in risk_files(name))
         write_blocks(risk_blocks(name, result), (page,))
         curve.write_bytes(risk_csv(result).encode())
-        return put_in_place((page, curve), output_dir)
+        return put_unchanged((page, curve), output_dir, force=force)
 
 
 def risk_csv(result: CaseRisk) -> str:

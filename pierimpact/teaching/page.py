@@ -18,7 +18,7 @@ from markupsafe import Markup
 import pierimpact
 from pierimpact.checks import InputError, brief
 from pierimpact.files.trucks import MassRange, TruckFile, read_truck_file
-from pierimpact.files.write import write_files
+from pierimpact.files.unchanged import write_unchanged
 from pierimpact.pier.equivalent import DAMPING_RATIO
 from pierimpact.resources import shipped
 from pierimpact.symbols import BY_KEY
@@ -34,7 +34,12 @@ _MASS_STEP = 500.0  # [kg]
 _MASSES = (0.75, 1.5)  # of a truck of which nothing more is known, as shares of its own mass
 
 
-def write_page(path: str | Path, trucks: Sequence[str | Path] = ("single-unit-8t",)) -> Path:
+def write_page(
+    path: str | Path,
+    trucks: Sequence[str | Path] = ("single-unit-8t",),
+    *,
+    force: bool = False,
+) -> Path:
     """Write the page and return its path.
 
     Parameters
@@ -44,19 +49,22 @@ def write_page(path: str | Path, trucks: Sequence[str | Path] = ("single-unit-8t
     trucks : sequence of str or Path, optional
         Trucks to choose from: names of the catalogue or paths of truck files. The first is on show
         at first, and the predictions are about it.
+    force : bool, optional
+        Whether to replace a file that somebody changed since it was written.
 
     Raises
     ------
     InputError
-        When the path does not end in .html or cannot be written to, when a truck cannot be read,
-        or when two have the same name; nothing is written.
+        When the path does not end in .html or cannot be written to, when somebody changed the
+        file, when a truck cannot be read, or when two have the same name; nothing is written.
     """
     path = Path(path)
     if path.suffix.lower() not in (".html", ".htm"):
         raise InputError(f"page must be the name of an .html file, got {brief(str(path))}")
     if not path.parent.is_dir():
         raise InputError(f"{path} cannot be written to: there is no folder {path.parent}")
-    write_files({path: page([read_truck_file(truck) for truck in trucks]).encode()})
+    content = page([read_truck_file(truck) for truck in trucks]).encode()
+    write_unchanged({path.name: content}, path.parent, force=force)
     return path
 
 
