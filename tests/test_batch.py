@@ -25,7 +25,7 @@ from pierimpact import cli
 from pierimpact.checks import InputError
 from pierimpact.design.codes import KIP
 from pierimpact.files.case import read_case_file
-from pierimpact.files.unchanged import RECORD, put_unchanged
+from pierimpact.files.unchanged import RECORD, put_unchanged, write_unchanged
 from pierimpact.files.write import temporary_folder
 from pierimpact.report import batch as batch_module
 from pierimpact.report.batch import find_cases, write_reports
@@ -620,6 +620,25 @@ def test_nothing_is_written_where_somebody_changed_a_report(tmp_path, monkeypatc
     assert calls == []
 
 
+def test_what_earlier_runs_wrote_is_removed_or_named(tmp_path, capsys):
+    cases, output = [write_case(tmp_path / f"{name}.yaml") for name in "ab"], tmp_path / "out"
+    cases[1].write_text("speed: 80", encoding="utf-8")
+    texts = {"a.docx": b"", "b.docx": b"", "b.pdf": b"", "summary.docx": b"", "binder.pdf": b""}
+    output.mkdir()
+    write_unchanged(texts, output)
+    (output / "b.docx").write_text("mine")
+    (output / "other.docx").write_text("mine")
+    assert cli.main(["report", *map(str, cases), "--output", str(output)]) == 2
+    assert capsys.readouterr().err.splitlines()[-1] == (
+        "pierimpact: warning: of an earlier run, not of this one: "
+        "b.docx, b.pdf, binder.pdf, summary.docx"
+    )
+    assert {file.name for file in output.iterdir()} == {
+        RECORD, "other.docx", *texts, *(f"a.{ending}" for ending in ("ipynb", "html", "pdf")),
+        *(f"summary.{ending}" for ending in ("csv", "html", "pdf")),
+    } - {"a.docx"}  # fmt: skip
+
+
 def test_a_name_that_is_not_utf_8_costs_its_own_case_only(tmp_path, monkeypatch, capsys):
     try:
         odd = write_case(tmp_path / "a\udcff.yaml")
@@ -652,7 +671,7 @@ def test_one_case_has_no_summary(tmp_path, monkeypatch):
     report = Report(Path("a.ipynb"), Path("a.html"), Path("a.pdf"), [], results_of(case))
     monkeypatch.setattr(batch_module, "write_report", lambda *_, **__: report)
     result = write_reports([case], tmp_path / "out", progress=False)
-    assert result == ([report], [], None, "", None, "")
+    assert result == ([report], [], None, "", None, "", [])
 
 
 def test_a_summary_that_fails_leaves_the_reports(tmp_path, monkeypatch, capsys):

@@ -23,7 +23,8 @@ summary and all sheets.
 A report that is there already is replaced, all of its files or none. If somebody has changed one
 of them since, or written a file of that name, nothing is written, unless --force is given. Which
 files are as they were written is known from their SHA-256 in the hidden file .pierimpact.json of
-the folder.
+the folder. A Word document of an earlier run goes where none is wanted now, unless somebody changed
+it; what else earlier runs wrote under these names and this one did not is named.
 
 Nothing that lies beside a case file is run, and no settings of Jupyter, IPython or matplotlib are
 read.
@@ -130,6 +131,9 @@ def _report(options: argparse.Namespace) -> int:
         complain(failure.reason)
     if len(cases) > 1 and batch.failures:
         complain(f"{len(batch.failures)} of {len(cases)} cases have no report")
+    if batch.left:
+        names = ", ".join(file.name for file in batch.left)
+        complain(f"warning: of an earlier run, not of this one: {names}")
     for whole in filter(None, (batch.summary_failure, batch.binder_failure)):
         complain(whole)
     if batch.summary_failure or batch.binder_failure:

@@ -14,7 +14,7 @@ from tqdm import tqdm
 
 from pierimpact.checks import InputError
 from pierimpact.files.find import find_case_files
-from pierimpact.files.unchanged import put_unchanged, refuse_changed
+from pierimpact.files.unchanged import put_unchanged, refuse_changed, written_before
 from pierimpact.report.summary import Row, summary_blocks, summary_csv
 from pierimpact.report.write import (
     Report,
@@ -66,6 +66,13 @@ class Batch(NamedTuple):
     summary_failure: str = ""  #: why the summary could not be written, in one line
     binder: Path | None = None
     binder_failure: str = ""  #: why the binder could not be written, in one line
+    left: Sequence[Path] = ()  #: files of these names by earlier runs, not written again
+
+    @property
+    def files(self) -> set[Path]:
+        """All files of the batch."""
+        whole = [*(self.summary or ()), self.binder]
+        return {file for report in self.reports for file in report.files} | set(filter(None, whole))
 
 
 def find_cases(paths: Iterable[str | Path], *, binder: bool = False) -> list[Path]:
@@ -144,7 +151,10 @@ def write_reports(
                 batch = batch._replace(binder_failure=f"the binder: {_line(reason_of(error))}")
     except KeyboardInterrupt:
         raise _interrupted(len(reports), len(cases)) from None
-    return batch
+    names = {file for case in cases for file in files_of(case.stem, True)}
+    names |= {*_summary_files(True), f"{BINDER}.pdf"}
+    left = [file for file in written_before(output_dir) if file.name in names]
+    return batch._replace(left=[file for file in left if file not in batch.files])
 
 
 def _interrupted(written: int, cases: int) -> KeyboardInterrupt:

@@ -91,6 +91,7 @@ def write_report(
 ) -> Report:
     """Write the report of a case file: NAME.ipynb, .html, .pdf and, if wanted, .docx, all or none.
 
+    A Word document of an earlier report goes where none is wanted, unless somebody changed it.
     Reports may be written in several threads at a time.
 
     Parameters
@@ -143,6 +144,8 @@ def write_report(
             reason, kept = reason_of(error), _keep(executed, output_dir)
             raise ReportError(f"{case_path.name}: {reason}{kept}") from error
     remove_unchanged(output_dir / _failed(case_path))
+    if not docx:
+        remove_unchanged(output_dir / f"{case_path.stem}.docx")
     return Report(executed, html, pdf, warnings, results, *word)
 
 
