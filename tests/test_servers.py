@@ -172,6 +172,8 @@ def test_no_other_host_is_answered(app):
 def test_a_kernel_answers_its_own_page_only_and_ends_with_it(app):
     status, headers, page = app.answer("/")
     assert status == 200
+    # Its style sheets are its own, although Voilà's template names others.
+    assert "style-src 'self' 'unsafe-inline'" in headers["Content-Security-Policy"]
     kernel = re.search(r'"kernelId": "([\w-]+)"', page)[1]
     path, cookie = f"/api/kernels/{kernel}/channels", headers["Set-Cookie"].split(";")[0]
     own = f"http://127.0.0.1:{app.port}"

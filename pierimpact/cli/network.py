@@ -13,10 +13,11 @@ Calculate every pier of a table, CSV or Parquet, by the full model: reactions wi
 largest shear and moment, the 25 ms average beside the force of the code, utilisations and rank.
 The columns are id and the keys of a case file, with the unit in the heading, such as
 speed [km/h], or in each cell; latitude and longitude in degrees may be among them. Writes
-results.csv, results.parquet, rejects.csv (rows with errors, which stop nothing) and summary.html
-with distributions, a map and a table. Interrupted and run again, it goes on where it was; what it
-needs for that is in DIR/pieces, which may be deleted. Results that are there already are replaced,
-and sheets that are of this table no longer removed, unless somebody changed them.
+results.csv, results.parquet, rejects.csv (rows with errors, which do not stop the others) and
+summary.html with distributions, a map and a table. A bad heading, an id given twice and a column
+whose first value has no unit stop it before it begins. Interrupted and run again, it goes on where
+it was; what it needs for that is in DIR/pieces, which may be deleted. Results that are there are
+replaced, and sheets by earlier runs removed, unless somebody changed them.
 """
 _EPILOG = """\
 A row costs about a millisecond of one core; as a beam, some 100 ms more. Exit code: 0 if the

@@ -99,6 +99,11 @@ def serve_page(notebook: Path, *, browser: bool, port: int = 8866) -> None:
     class Page(TornadoVoilaHandler):  # type: ignore[misc]
         """The notebook as a page; what goes wrong is a line of text."""
 
+        @property
+        def content_security_policy(self) -> str:
+            """Let no style sheet come from a network, as Voilà's template asks for."""
+            return f"{super().content_security_policy}; style-src 'self' 'unsafe-inline'"
+
         def write_error(self, status_code: int, **options: Any) -> None:
             reason = getattr(options["exc_info"][1], "log_message", None)
             self.set_header("Content-Type", "text/plain; charset=UTF-8")
