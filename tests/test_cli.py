@@ -1,5 +1,6 @@
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -194,6 +195,43 @@ def test_output_that_nobody_reads_is_no_failure_to_tell():
     )
     os.close(write)
     assert (done.returncode, done.stderr) == (1, "")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell of POSIX")
+def test_a_closed_output_is_no_defect(tmp_path):
+    case = tmp_path / "tti.yaml"
+    case.write_bytes(EXAMPLE.read_bytes())
+    environment = os.environ | {"PYTHONPATH": str(Path(pierimpact.__file__).parent.parent)}
+    for close in (">&-", "<&- >&-"):
+        done = subprocess.run(
+            f'"{sys.executable}" -m pierimpact report tti.yaml {close}',
+            shell=True,
+            cwd=tmp_path,
+            env=environment,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+        )
+        assert done.stderr.splitlines() == [
+            line for line in done.stderr.splitlines() if line.startswith("pierimpact: warning: ")
+        ]
+        assert done.returncode == 0
+    assert (tmp_path / "reports" / "tti.pdf").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["new", f"{'a' * 300}.yaml"],
+        ["page", f"{'a' * 300}.html"],
+        ["report", str(EXAMPLE), "--output", "d" * 300],
+    ],
+    ids=lambda arguments: arguments[0],
+)
+def test_a_name_that_is_too_long_is_bad_input(tmp_path, arguments):
+    done = command(*arguments, cwd=tmp_path)
+    assert done.returncode == 2
+    assert re.fullmatch(r"pierimpact: .*: File name too long\n", done.stderr)
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")

@@ -1,6 +1,7 @@
 """All commands, and what becomes of what they raise."""
 
 import argparse
+import errno
 import logging
 import sys
 from collections.abc import Sequence
@@ -8,7 +9,12 @@ from collections.abc import Sequence
 import pierimpact
 from pierimpact.checks import InputError
 from pierimpact.cli import app, cases, files, fit, network, risk, teach
-from pierimpact.cli.ending import drop_output, print_anything, signals_as_interrupts
+from pierimpact.cli.ending import (
+    drop_output,
+    open_streams,
+    print_anything,
+    signals_as_interrupts,
+)
 from pierimpact.cli.terminal import complain, defect
 from pierimpact.files.write import written
 
@@ -17,6 +23,7 @@ _log = logging.getLogger("pierimpact")
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code, as `pierimpact.cli.main`."""
+    open_streams()
     print_anything()
     before = len(written)
     with signals_as_interrupts() as ending:
@@ -37,7 +44,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
             _log.debug("the system:", exc_info=True)
             drop_output()
             complain(f"{error.filename or 'the output'}: {error.strerror or error}")
-            return 1
+            return 2 if error.errno == errno.ENAMETOOLONG else 1
         except Exception as error:
             _log.debug("unforeseen:", exc_info=True)
             complain(defect(error))
@@ -52,8 +59,7 @@ def _run(arguments: Sequence[str] | None) -> int:
             _log.setLevel(logging.DEBUG)
         code: int = options.run(options)
     finally:
-        if sys.stdout:  # which may be closed
-            sys.stdout.flush()
+        sys.stdout.flush()
     return code
 
 

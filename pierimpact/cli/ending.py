@@ -46,6 +46,15 @@ def signals_as_interrupts() -> Iterator[Ending]:
             signal.signal(number, handler)
 
 
+def open_streams() -> None:
+    """Lead standard streams that are closed to nowhere, or other files would take their places."""
+    for name, mode in {"stdin": "r", "stdout": "w", "stderr": "w"}.items():
+        if getattr(sys, name) is None:
+            place = os.open(os.devnull, os.O_RDWR)  # the first that is free: the stream's own
+            os.set_inheritable(place, True)
+            setattr(sys, name, os.fdopen(place, mode, encoding="utf-8"))
+
+
 def print_anything() -> None:
     """Let all output print what its encoding lacks as escapes."""
     for stream in (sys.stdout, sys.stderr):
