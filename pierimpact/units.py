@@ -66,9 +66,14 @@ DIMENSIONS = {
     "momentum": Dimension("N*s", "a momentum", "kN*s, kg*m/s"),
 }
 
+#: What to say of a number with a comma.
+DECIMALS = "decimals have a point, thousands no comma"
 _LONGEST = 200  # characters of a quantity: this project's choice
 _DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-_NUMBER = re.compile(rf"\s*([-+]?(?:{_DIGITS}|(?:nan|inf)\b))\s*(.*?)\s*", re.ASCII)
+# Spaces that do not break, which documents have before a unit, are as good as others.
+_NUMBER = re.compile(
+    rf"\s*([-+]?(?:{_DIGITS}|(?:nan|inf)\b))[\s\u00a0\u2009\u202f]*(.*?)\s*", re.ASCII
+)
 _FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?[1-9])?"
 _EXPRESSION = re.compile(rf"(?:1?\s*/\s*)?{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
 _MARKS = str.maketrans({"·": "*", "²": "^2", "³": "^3", "⁴": "^4", "⁶": "^6"})
@@ -178,9 +183,14 @@ def parse(name: str, value: object, dimension: str) -> float:
         raise InputError(f"{name} must have a unit ({units}), got {shown}")
     unit = _unit(expression)
     if unit is None:
-        hint = did_you_mean(expression, units.split(", "))
+        near = units.split(", ")
+        if "klb" in expression:  # thousands, of which lb and lbf are none
+            near = [each for each in near if "kip" in each]
+        hint = did_you_mean(expression.replace("klb", "kip"), near)
         if re.match(r",\d", expression):
-            hint = ": decimals have a point, thousands no comma"
+            hint = f": {DECIMALS}"
+        elif re.match(r"\d", expression):
+            hint = ": a number has no spaces in it"
         raise InputError(f"{name} must be {words} ({units}), got unknown unit in {shown}{hint}")
     size, dimensions = unit
     if dimensions != _dimensions(dimension):

@@ -403,6 +403,16 @@ def test_a_truck_file_is_looked_for_beside_the_case_file(tmp_path):
             "mapping values are not allowed here: put text that has a colon",
         ),
         (b"project: a\n\tspeed: 3", "line 2: not valid YAML"),
+        (b"project:\n\ta: 3", "any token: use spaces in place of tabs"),
+        (
+            b"base: a\nspeed:80\ntop: b\n",
+            "line 2: not valid YAML: could not find expected ':': a key",
+        ),
+        (
+            b"project: 'a\nspeed: 3\ntop: b\n",
+            "line 1: not valid YAML: found unexpected end of stream",
+        ),
+        (b'project: "a\nspeed: 3\n', "end of stream: a quotation mark is not closed"),
         (b"speed: 80 km/h\nspeed: 90 km/h", "line 2: 'speed' is given twice"),
         (b"project: !!python/object:os.system x", "line 1: not valid YAML"),
         (b"project: \x00", "not valid YAML"),

@@ -346,6 +346,18 @@ def test_the_worst_piers_get_sheets_of_their_own(tmp_path, here, monkeypatch):
     assert all(f'"sheets/{name}"' in page for name in names)
 
 
+def test_decimals_with_commas_are_told_from_points(tmp_path, here):
+    path = tmp_path / "piers.csv"
+    rows = ROWS.replace("P1,42.1,", 'P1,"42,1",').replace(",9,25,", ',"9,5",25,')
+    path.write_text(f"{HEADING}\n{rows}")
+    found = calculate_portfolio(read_pier_table(path), tmp_path, beams="asked")
+    assert [reject.reason for reject in found.rejects] == [
+        "latitude must be a plain number, got '42,1': decimals have a point, thousands no comma",
+        "column_height must be a number, for its unit m is in the heading, got '9,5': decimals "
+        "have a point, thousands no comma",
+    ]
+
+
 def command(path, folder, *options):
     return ["portfolio", str(path), "--output", str(folder), "--beams", "asked", *options]
 

@@ -319,6 +319,9 @@ def test_the_command_writes_both_files_or_none(tmp_path, capsys):
     assert "<script" not in page
     sources = re.findall(r'(?:src|srcset)="([^"]*)"', page)
     assert all(source.startswith("data:image/") for source in sources)
+    assert "300 trucks drawn with seed 0" in printed.out
+    assert cli.main(["risk", str(path), "--samples", "1"]) == 0
+    assert "(1 truck drawn with seed 0; bands hold 95 %)" in capsys.readouterr().out
     (out / "pier-risk.csv").write_text("mine")
     assert cli.main(arguments) == 2
     assert (

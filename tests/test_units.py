@@ -14,6 +14,7 @@ from pierimpact.units import (
     compared,
     converted,
     parse,
+    pattern,
     printed,
     rounded,
     stated,
@@ -227,6 +228,10 @@ def test_results_have_four_figures_and_what_they_rest_on_five():
         ("25 mPa", "pressure", "got unknown unit in '25 mPa'; did you mean MPa?"),
         ("25 gpa", "pressure", "did you mean GPa?"),
         ("12,5 m", "length", "unknown unit in '12,5 m'"),
+        ("2 400 kg/m^3", "density", "in '2 400 kg/m^3': a number has no spaces in it"),
+        ("2\u202f400 kg/m^3", "density", ": a number has no spaces in it"),
+        ("1800 klb", "force", "got unknown unit in '1800 klb'; did you mean kip?"),
+        ("3 klb/in", "stiffness", "got unknown unit in '3 klb/in'; did you mean kip/in?"),
         ("80 kip", "mass", "value must be a mass (kg, t, lb), got '80 kip', which is a force"),
         (
             "80 lb",
@@ -384,3 +389,14 @@ def test_a_compared_ratio_shows_on_which_side_of_one_it_is(ratio):
 )
 def test_compared(ratio, text):
     assert compared(ratio) == text
+
+
+@pytest.mark.parametrize("space", ["", " ", "\u00a0", "\u2009", "\u202f"])
+def test_any_space_may_stand_before_a_unit(space):
+    assert parse("speed", f"80{space}km/h", "speed") == parse("speed", "80 km/h", "speed")
+    assert re.search(pattern("speed"), f"80{space}km/h")
+
+
+def test_a_thousand_pounds_are_no_pounds():
+    with pytest.raises(InputError, match=r"got unknown unit in '18 klb'$"):
+        parse("truck_mass", "18 klb", "mass")

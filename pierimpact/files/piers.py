@@ -19,7 +19,7 @@ from pierimpact.files.inputs import Inputs
 from pierimpact.files.keys import quantity_of
 from pierimpact.files.reading import require_regular
 from pierimpact.symbols import BY_KEY
-from pierimpact.units import DIMENSIONS, parse
+from pierimpact.units import DECIMALS, DIMENSIONS, parse
 
 #: Where a pier is, in degrees, with the largest that each may be.
 PLACE = {"latitude": 90.0, "longitude": 180.0}  # exactly
@@ -155,16 +155,17 @@ def pier_of(columns: Iterable[Column], row: Row) -> Pier:
 
 
 def _value(column: Column, cell: str) -> object:
+    hint = f": {DECIMALS}" if re.search(r"\d,\d", cell) else ""
     if column.key in PLAIN:
         if not _NUMBER.fullmatch(cell):
-            raise InputError(f"{column.key} must be a plain number, got {brief(cell)}")
+            raise InputError(f"{column.key} must be a plain number, got {brief(cell)}{hint}")
         return float(cell)
     if not column.unit or (column.key == "impact_height" and cell == "auto"):
         return cell
     if not _NUMBER.fullmatch(cell):
         raise InputError(
             f"{column.key} must be a number, for its unit {column.unit} is in the heading, "
-            f"got {brief(cell)}"
+            f"got {brief(cell)}{hint}"
         )
     return f"{cell} {column.unit}"
 

@@ -15,7 +15,13 @@ from pierimpact.checks import InputError, brief, shortened
 
 _DEEPEST = 12  # nodes within each other; case files have four: this project's choice
 _MOST = 64_000  # characters and nodes with all aliases written out: this project's choice
-_COLON = "mapping values are not allowed here"  # what YAML says of a second colon in a line
+# What to do, by what YAML says of it: of what it was at, and then of what it met.
+_REMEDIES = {
+    "while scanning a simple key": "a key ends in a colon and a space",
+    "while scanning a quoted scalar": "a quotation mark is not closed",
+    "mapping values are not allowed here": "put text that has a colon in it in quotes",
+    "found character '\\t' that cannot start any token": "use spaces in place of tabs",
+}
 _WHOLE = re.compile(r"[-+]?(?:0|[1-9][0-9]*)")
 _FLOAT = re.compile(
     r"[-+]?(?:[0-9]+\.[0-9]*|\.[0-9]+|[0-9]+(?=[eE]))(?:[eE][-+]?[0-9]+)?$|[-+]?\.inf$|\.nan$"
@@ -33,10 +39,12 @@ def yaml_keys(text: str) -> dict[Any, Any]:
     try:
         values = yaml.load(text, _Loader)
     except yaml.MarkedYAMLError as error:
-        where = f"{_line(error.problem_mark)}: " if error.problem_mark else ""
-        remedy = ": put text that has a colon in it in quotes" if error.problem == _COLON else ""
+        begun = error.context in _REMEDIES  # there is the mistake, not where YAML gave up
+        mark = error.context_mark if begun else error.problem_mark
+        where = f"{_line(mark)}: " if mark else ""
+        remedy = _REMEDIES.get(str(error.context if begun else error.problem), "")
         problem = shortened(str(error.problem), 120)
-        raise InputError(f"{where}not valid YAML: {problem}{remedy}") from None
+        raise InputError(f"{where}not valid YAML: {problem}{remedy and ': '}{remedy}") from None
     except (yaml.YAMLError, RecursionError) as error:
         reason = str(error).partition("\n")[0]
         raise InputError(f"not valid YAML: {shortened(reason, 120)}") from None

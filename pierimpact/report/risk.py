@@ -341,6 +341,12 @@ def laws(traffic: Traffic) -> Iterator[Line]:
         yield Line(label, "of the weighed trucks" if own else law.words, "given" if own else remark)
 
 
+def drawn(result: CaseRisk) -> str:
+    """Return how many trucks were drawn, and with which seed."""
+    size, seed = result.risk.size, result.risk.seed
+    return f"{size:,} truck{'' if size == 1 else 's'} drawn with seed {seed}"
+
+
 def risk_text(name: str, result: CaseRisk) -> str:
     """Return the risk of a case in plain text.
 
@@ -351,7 +357,6 @@ def risk_text(name: str, result: CaseRisk) -> str:
     result : CaseRisk
         Its risk.
     """
-    drawn = f"{result.risk.size:,} trucks drawn with seed {result.risk.seed}; bands hold 95 %"
     return "\n".join(
         [
             name,
@@ -359,7 +364,7 @@ def risk_text(name: str, result: CaseRisk) -> str:
             "",
             text_table(list(lines(result)), widest=_WIDEST),
             "",
-            f"Traffic ({drawn})",
+            f"Traffic ({drawn(result)}; bands hold 95 %)",
             text_table(list(laws(result.traffic.traffic)), widest=_WIDEST),
             "",
             "Before you rely on this",

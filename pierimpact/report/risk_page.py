@@ -17,6 +17,7 @@ from pierimpact.report.risk import (
     RATES,
     TXDOT,
     CaseRisk,
+    drawn,
     laws,
     lines,
     share_text,
@@ -130,8 +131,8 @@ def risk_blocks(name: str, result: CaseRisk) -> list[Block]:
         _trucks(result),
         Paragraph(
             (
-                f"{result.risk.size:,} trucks drawn with seed {result.risk.seed}; the same seed "
-                "gives the same trucks for any pier and any number of workers. The curve is in ",
+                f"{drawn(result)}; the same seed gives the same trucks for any pier and any "
+                "number of workers. The curve is in ",
                 Code(f"{name}-risk.csv"),
                 f". Made by pierimpact {pierimpact.__version__}.",
             )
