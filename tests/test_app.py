@@ -210,6 +210,10 @@ def test_a_name_that_is_none_is_refused(session, name):
 
 
 def test_files_can_be_put_beside_the_case(session):
+    assert changed(session, truck="mine.toml")["errors"]["truck"] == (
+        "truck file mine.toml cannot be read: No such file or directory; "
+        "Add file… puts it beside the case"
+    )
     session.add("mine.toml", b"x = 1")
     assert "mine.toml" in changed(session, truck="mine.toml")["errors"]["truck"]
     session.add("pierimpact.toml", b"nonsense = 1")

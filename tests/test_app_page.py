@@ -131,6 +131,19 @@ def test_an_opened_file_shows_its_unknown_keys_until_they_are_emptied(form, fold
     assert form.one("#field-file_name").get_attribute("value") == "bad.yaml"
 
 
+def test_a_case_with_a_refused_name_is_not_saved(form, folder):
+    before = sorted((folder / "down").iterdir())
+    form.enter("file_name", "Pfeiler Süd/1")
+    form.press_button("Save")
+    until(lambda: "must be a name without a folder" in form.error("file_name"))
+    form.enter("file_name", "Pfeiler Süd 1.yaml")
+    until(lambda: form.is_up_to_date() and not form.error("file_name"))
+    form.press_button("Save")
+    saved = folder / "down" / "Pfeiler Süd 1.yaml"
+    until(saved.exists)
+    assert sorted((folder / "down").iterdir()) == sorted([*before, saved])
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_it_is_readable_on_a_narrow_screen_and_named_throughout(form, scheme):
     feature = {"name": "prefers-color-scheme", "value": scheme}

@@ -1,5 +1,6 @@
 """One user's case: what is typed, the text of its file, what it comes to, and its report."""
 
+import errno
 import os
 import shutil
 from collections.abc import Callable
@@ -138,6 +139,9 @@ class Session:
                 result = self._calculated()
             except InputError as error:
                 line = str(error).removeprefix(f"{shortened(self.name, 100)}: ")
+                line = line.replace(f"{self.folder}{os.sep}", "")
+                if line.endswith(os.strerror(errno.ENOENT)):
+                    line += "; Add file… puts it beside the case"
                 key = _key_of(line)
                 if key:
                     errors = {key: line}

@@ -153,6 +153,10 @@ export function render({ model, el }) {
     setTimeout(() => URL.revokeObjectURL(url), 60000);
   };
   const save = () => {
+    if (!/^[^./][^/]*\.ya?ml$/i.test(name.value)) { // what is wrong with it is said beside it
+      name.input.focus();
+      return;
+    }
     download(name.value, text, "application/yaml");
     saved = text;
   };
