@@ -44,6 +44,8 @@ def _floats(values: object) -> NDArray[np.float64]:
 
 
 def _float(name: str, value: SupportsFloat) -> float:
+    if type(value) is float:  # nearly all are
+        return value
     try:
         return float(_floats(value))
     except (TypeError, ValueError, OverflowError):
