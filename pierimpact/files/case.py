@@ -357,7 +357,7 @@ def column_of(inputs: Inputs) -> PierColumn:
     if None not in (inputs.stiffness_factor, inputs.effective_stiffness):
         raise InputError("give only one of stiffness_factor and effective_stiffness")
     elastic_modulus = inputs.elastic_modulus or concrete_modulus(
-        inputs.concrete_strength or 0.0, inputs.units
+        inputs.concrete_strength or 0.0, inputs.concrete_system
     )
     return PierColumn(
         height=inputs.column_height,

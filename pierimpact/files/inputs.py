@@ -4,7 +4,15 @@ import datetime
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PrivateAttr,
+    ValidationError,
+    ValidationInfo,
+)
 
 from pierimpact.checks import InputError, brief, known, not_negative, one_line, positive, told_from
 from pierimpact.files.limits import possible
@@ -264,6 +272,14 @@ class Inputs(SharedInputs, SectionInputs):
     supersedes: Text | None = None
     annexes: Annotated[tuple[str, ...], _named(_annexes, list[str])] = ()
 
+    # Which is no key, and lost where inputs are not from `read_inputs`.
+    _strength_in_psi: bool = PrivateAttr(default=False)
+
+    @property
+    def concrete_system(self) -> str:
+        """System of the unit that the concrete's strength is given in: "SI" or "US"."""
+        return "US" if self._strength_in_psi else "SI"
+
 
 KEYS = tuple(Inputs.model_fields)
 #: Keys whose source a case file can give, or that it can mark as assumed.
@@ -288,6 +304,7 @@ def read_inputs(values: Mapping[str, object]) -> Inputs:
     for key in (*inputs.assumed, *inputs.sources):
         if key not in given:
             raise InputError(f"{key} is listed under assumed or sources, but is not given")
+    inputs._strength_in_psi = str(given.get("concrete_strength")).strip().endswith(("psi", "ksi"))
     return inputs
 
 

@@ -21,7 +21,7 @@ from pierimpact.report.document.numbered import Equation, Figure, Steps, Table, 
 from pierimpact.report.document.step_writer import StepWriter
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
-from pierimpact.units import Printed, printed, rounded, unit_size
+from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
 
 _GIVEN = (
     *("D", "b", "h", "t", "Df", "ns", "Av", "alpha_E", "alpha_rho"),
@@ -138,10 +138,11 @@ class EquivalentPierSteps(PierSection):
         return inputs.sources.get(key) or inputs.assumed.get(key) or "given in the case file"
 
     def _concrete_modulus(self) -> Equation:
-        """Return the modulus by the formula of ACI 318, in the form for the units of the sheet."""
-        unit = self.unit("root strength")
-        factor = in_tex(Printed(rounded(CONCRETE_FACTORS[self.system], 5), unit))
-        strength = self.shown(self._values["fc"], "root strength", given=True)
+        """Return the modulus by ACI 318, in its form for the unit that the strength is given in."""
+        system = self.case.inputs.concrete_system
+        unit = unit_of("root strength", system)
+        factor = in_tex(Printed(rounded(CONCRETE_FACTORS[system], 5), unit))
+        strength = printed(self._values["fc"], "root strength", system, given=True)
 
         def formula(value: str, times: str) -> str:
             return rf"{factor} {times} \sqrt{{{value} / (1\ \text{{{unit}}})}}"
