@@ -163,9 +163,14 @@ class CollisionHistory:
         That is so a period of the pier after the truck has left it, or come to rest against it.
         """
         end, pier = self.end, self.pier
-        presses = end.engine.regime != FREE or (end.body.regime != FREE and not end.stuck)
+        since = end.last_change
+        if end.engine.regime == end.body.regime == FREE:
+            pressing = np.flatnonzero(self.contact_force)
+            since = self.time[pressing[-1]] if len(pressing) else 0.0
+        elif end.engine.regime != FREE or not end.stuck:
+            return False
         period = 1.0 / (pier.frequency * math.sqrt(1.0 - pier.damping_ratio**2))
-        return not presses and end.time - end.last_change >= period
+        return bool(end.time - since >= period)
 
     @property
     def governs(self) -> str:

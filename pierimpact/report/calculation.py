@@ -348,6 +348,6 @@ def _with_reversal(case: Case, pier: EquivalentPier) -> CollisionHistory:
     """Return the collision, followed until the pier has swung back as far as it will."""
     history = simulate(case.truck, pier, case.inputs.speed)
     while not history.has_swung_back:
-        longer = 1.5 * history.end.time + 1.0 / pier.frequency  # numerical: any would do
+        longer = 1.25 * history.end.time + 1.0 / pier.frequency  # numerical: any would do
         history = simulate(case.truck, pier, case.inputs.speed, longer)
     return history
