@@ -234,7 +234,7 @@ def risk() -> Explorer:
             *("traffic_volume", "truck_share", "distance_from_road", "mean_mass", "mean_speed"),
             *("resistance", "risk_pier"),
         ],
-        heights=(96, 58, 40),
+        heights=(101, 58, 40),
         kind="risk",
         presampled=presampled.data(),
     )
