@@ -3,10 +3,10 @@
 import io
 import re
 
-import page as validator
 import pypdf
 import pytest
 from nbformat import v4
+from pdf_faults import faults
 from test_document import BLOCKS, SVG
 from test_report import flat, squeezed
 
@@ -145,8 +145,7 @@ def test_links_within_a_sheet_stay_in_it(made):
 
 @pytest.mark.parametrize("profile", ["2a", "ua1"])
 def test_it_conforms_as_its_sheets_do(made, profile):
-    found = validator.validate_pdf_bytes(made[2], profile=profile)
-    assert [failure.message for failure in found.failures] == []
+    assert faults(made[2], profile) == []
 
 
 def test_tags_are_those_of_the_sheets_each_named_once(made):
@@ -188,7 +187,7 @@ def test_every_kind_of_block_can_be_bound():
     pages = pages_of(SheetPDFExporter().from_notebook_node(each)[0])
     bound = bind(HEAD, [BoundSheet("all", "all", each, pages)])
     assert pages_of(bound) == 1 + pages
-    assert validator.is_pdf_compliant_bytes(bound, profile="ua1")
+    assert faults(bound, "ua1") == []
 
 
 def test_a_case_called_as_the_binder_is_refused(tmp_path):
