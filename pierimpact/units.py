@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cache, partial
 from importlib import import_module
 from importlib.util import find_spec
+from threading import Lock
 from typing import Any, NamedTuple
 
 from pierimpact.checks import InputError, brief, did_you_mean
@@ -83,6 +84,7 @@ _FEET_AND_INCHES = re.compile(
     rf"\s*(-?)\s*(?:{_MIXED}\s*(?:ft\.?|'))?\s*-?\s*(?:{_MIXED}\s*(?:inch|in\.?|\"))?\s*", re.ASCII
 )
 _INCH = Fraction("0.0254")  # [m]
+_ONE_IMPORTS = Lock()
 _PRIMES = str.maketrans("′’″”", "''\"\"")
 
 
@@ -90,13 +92,14 @@ _PRIMES = str.maketrans("′’″”", "''\"\"")
 def _pint() -> Any:
     """Import pint, without Dask, which it would load where that is installed, for nothing here."""
     modules: dict[str, Any] = sys.modules
-    if "pint" in modules or "dask" in modules or find_spec("dask") is None:
-        return import_module("pint")
-    modules["dask"] = None  # the import of such a name fails
-    try:
-        pint = import_module("pint")
-    finally:
-        del modules["dask"]
+    with _ONE_IMPORTS:  # cases are read in several threads
+        if "pint" in modules or "dask" in modules or find_spec("dask") is None:
+            return import_module("pint")
+        modules["dask"] = None  # the import of such a name fails
+        try:
+            pint = import_module("pint")
+        finally:
+            del modules["dask"]
     # What pint knows of Dask in its place, for others in this process who use the two together.
     facet = import_module("pint.facets.dask")
     vars(facet)["dask_array"] = _Later("dask.array")

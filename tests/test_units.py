@@ -1,5 +1,7 @@
 import math
 import re
+import subprocess
+import sys
 from decimal import Decimal
 
 import pytest
@@ -400,3 +402,23 @@ def test_any_space_may_stand_before_a_unit(space):
 def test_a_thousand_pounds_are_no_pounds():
     with pytest.raises(InputError, match=r"got unknown unit in '18 klb'$"):
         parse("truck_mass", "18 klb", "mass")
+
+
+FIRST_IN_THREADS = """
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from pierimpact.units import parse
+start = threading.Barrier(8)
+def first(number):
+    start.wait()
+    return parse("height", f"{number} ft", "length")
+with ThreadPoolExecutor(8) as executor:
+    print(sum(executor.map(first, range(8))))
+"""
+
+
+@pytest.mark.parametrize("attempt", range(5))
+def test_threads_may_parse_their_first_quantities_at_once(attempt):
+    command = [sys.executable, "-c", FIRST_IN_THREADS]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.stderr, float(done.stdout)) == ("", pytest.approx(28 * 0.3048))
