@@ -9,7 +9,7 @@ the case's folder, from which relative paths start.
 
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Awaitable, Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from queue import Empty
@@ -118,14 +118,31 @@ class _Client(AsyncKernelClient):
         RuntimeError
             When nothing comes.
         """
-        for _ in range(_PATIENCE):
-            self.kernel_info()
-            with suppress(Empty):
-                await self.get_iopub_msg(timeout=1.0)
-                return
-            if not await self.is_alive():
-                break
-        raise RuntimeError("the kernel did not start")
+
+        async def printed(timeout: float) -> None:
+            self.kernel_info()  # of which something comes, unless it came before this listened
+            await self.get_iopub_msg(timeout=timeout)
+
+        await _answered(printed, self.is_alive)
+
+
+async def _answered(
+    message: Callable[..., Awaitable[object]], is_alive: Callable[[], Awaitable[bool]]
+) -> None:
+    """Wait for a message of a kernel, which may take long to start.
+
+    Raises
+    ------
+    RuntimeError
+        When it does not come.
+    """
+    for _ in range(_PATIENCE):
+        with suppress(Empty):
+            await message(timeout=1.0)
+            return
+        if not await is_alive():
+            break
+    raise RuntimeError("the kernel did not start")
 
 
 class IsolatedKernelManager(AsyncKernelManager):
@@ -164,13 +181,7 @@ class IsolatedKernelManager(AsyncKernelManager):
         client = self.client()
         client.start_channels(iopub=False, stdin=False, hb=False, control=False)
         client.execute(_ENTER.format(folder=_literal(str(folder))), silent=True)
-        for _ in range(_PATIENCE):
-            with suppress(Empty):
-                await client.get_shell_msg(timeout=1.0)
-                return
-            if not await self.is_alive():
-                break
-        raise RuntimeError("the kernel did not start")
+        await _answered(client.get_shell_msg, self.is_alive)
 
     def client(self, **options: Any) -> Any:
         """Return a client, which lasts until `disconnect`: nbclient leaves its own open."""

@@ -108,9 +108,8 @@ class FirstPage(Section):
             return None
         larger = inputs.member_forces == "larger"
         rows: list[list[Inline]] = []
-        resistances = (inputs.shear_resistance, inputs.moment_resistance)
-        for (name, quantity), resistance in zip(DEMANDS.items(), resistances, strict=True):
-            demand = result.demands[name]
+        for name, quantity in DEMANDS.items():
+            demand, resistance = result.demands[name], result.resistances.get(name)
             cells: list[Inline] = [
                 f"{name.capitalize()} [{self.unit(quantity)}]",
                 self.number(demand.static, quantity),

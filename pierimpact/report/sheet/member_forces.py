@@ -118,31 +118,26 @@ class MemberForces(Section):
     def comparison(self) -> Block:
         """Return where and when the largest forces of the beam are, and which method governs."""
         result = self.calculation
-        beams = [
-            (impact, beam)
-            for impact in result.impacts
-            for beam in [impact.beam_forces]
-            if beam is not None
-        ]
-        if not beams:
-            return Paragraph(
-                "The case asks for static member forces: the column was not calculated as a beam."
-            )
         sentences = []
         for name, demand in result.demands.items():
-            impact, beam = max(beams, key=lambda each: each[0].demands[name].beam or 0.0)
-            extremes = beam.shear_extremes if name == "shear" else beam.moment_extremes
-            extreme, ratio = extremes.governing, demand.ratio
+            largest = result.largest_of_beam(name)
+            if largest is None:
+                return Paragraph(
+                    "The case asks for static member forces: the column was not calculated as a "
+                    "beam."
+                )
+            extreme, impact = largest
             struck = self.stated(impact.struck.impact_height, "length")
-            of_both = f", struck at {struck}," if len(beams) > 1 else ""
-            static = "largest static one" if len(beams) > 1 else "static one"
+            several = len(result.impacts) > 1
+            of_both = f", struck at {struck}," if several else ""
+            static = "largest static one" if several else "static one"
             height = self.shown(abs(extreme.z), "length", given=True)
             place = f"{height} {'above' if extreme.z >= 0.0 else 'below'} the ground"
-            place = "at the base" if extreme.z == beam.z[0] else place
+            place = "at the base" if extreme.z == 0.0 - result.case.column.embedment else place
             time = self.shown(extreme.time, "time")
             sentences.append(
                 f"The largest {name} of the beam{of_both} is {place}, {time} after first touch; "
-                f"the {static} is {rounded(ratio or 0.0, 3)} times it."
+                f"the {static} is {rounded(demand.ratio or 0.0, 3)} times it."
             )
         choice = {
             "larger": "The larger of the two governs each check.",
