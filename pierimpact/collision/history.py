@@ -146,7 +146,7 @@ class CollisionHistory:
         cargo = self.cargo_peak
         return cargo if cargo and cargo.reaction > self.engine_peak.reaction else self.engine_peak
 
-    @property
+    @cached_property
     def lowest(self) -> Peak:
         """The smallest reaction: the pier swings back, and past its rest it is negative."""
         sample = int(self.reaction.argmin())
