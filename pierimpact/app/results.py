@@ -4,7 +4,7 @@ from typing import Any
 
 from pierimpact.plots.situation import draw_situation
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.outcome import first_results, statement, upper_utilisations, verdict
+from pierimpact.report.outcome import first_results, statement, verdict
 from pierimpact.report.warnings import warnings_of
 from pierimpact.units import compared, printed, stated
 
@@ -18,7 +18,7 @@ def shown(calculation: Calculation) -> dict[str, Any]:
     """
     case, struck = calculation.case, calculation.struck
     system, reaction = case.inputs.units, calculation.design_force
-    ratios, upper = calculation.utilisations, upper_utilisations(calculation)
+    ratios, upper = calculation.utilisations, calculation.upper_utilisations
     height = stated(struck.impact_height, "length", system)
     exceeds = any(ratio > 1.0 for ratio in ratios.values())
     return {

@@ -5,5 +5,6 @@
 `stepping` sums coupled motion as a Taylor series and ends each step at the first change of regime,
 which `series` locates; `ringing` follows a fast vibration for many cycles at once; `propagation`
 takes one collision to its end, or many side by side, which `groups` keeps; `beam` does so with the
-modes of a beam. Callers use `simulate`.
+modes of a beam, and `beams` for many trucks at a time by small steps, to a per cent.
+Callers use `simulate`.
 """

@@ -1,6 +1,6 @@
 """The pier as a beam: natural modes of a Timoshenko beam, and the flexibility they leave out."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -81,6 +81,40 @@ class BeamPier:
         """Mass 1/Σ φ(z_n)² that resists a sudden force at z_n [kg]."""
         return float(1.0 / np.sum(self.impact_deflection**2))
 
+    def up_to(self, frequency: float) -> "BeamPier":
+        """Return the same beam with its natural modes up to a frequency [Hz], and at least one.
+
+        Its other shapes become one, so that it is exact for a static force as before.
+        """
+        kept = max(1, int(np.searchsorted(self.frequencies, frequency, side="right")))
+        omega, phi = self.circular_frequencies, self.impact_deflection
+        if kept == len(omega):  # a single shape, and no residual
+            return self
+        residual, shares = _residual(omega[kept:], phi[kept:])
+
+        def with_residual(shapes: Array) -> Array:
+            return np.concatenate((shapes[:kept], [shares @ shapes[kept:]]))
+
+        return replace(
+            self,
+            circular_frequencies=np.append(omega[:kept], residual),
+            impact_deflection=with_residual(phi),
+            deflection=with_residual(self.deflection),
+            shear=with_residual(self.shear),
+            moment=with_residual(self.moment),
+        )
+
+
+def _residual(omega: Array, phi: Array) -> tuple[float, Array]:
+    """Return shapes as one: its circular frequency, and the share that it has of each.
+
+    It is their static deflection under a force at z_n, normalised: with stiffness and mass
+    Σ φ²/ω² and Σ φ²/ω⁴ before.
+    """
+    static = phi / omega**2
+    flexibility, mass = static @ phi, static @ static
+    return float(np.sqrt(flexibility / mass)), static / np.sqrt(mass)
+
 
 def beam_pier(
     arrangement: Arrangement, struck: int, equivalent: EquivalentPier, modes: int | None = None
@@ -116,16 +150,13 @@ def beam_pier(
             omega, shapes = elements.modes()
         count = min(max(FEWEST_MODES, int(np.searchsorted(omega, highest)) + 1), MOST_MODES)
 
-    # The other modes of the elements as one shape: their static deflection under a unit force.
-    phi = shapes[struck]
-    static = phi[count:] / omega[count:] ** 2
-    flexibility, mass = static @ phi[count:], static @ static
-    residual = shapes[:, count:] @ static / np.sqrt(mass)
-    z, deflection, shear, moment = elements.fields(np.column_stack((shapes[:, :count], residual)))
+    residual, shares = _residual(omega[count:], shapes[struck, count:])
+    shapes = np.column_stack((shapes[:, :count], shapes[:, count:] @ shares))
+    z, deflection, shear, moment = elements.fields(shapes)
     return BeamPier(
         equivalent=equivalent,
-        circular_frequencies=np.append(omega[:count], np.sqrt(flexibility / mass)),
-        impact_deflection=np.append(phi[:count], flexibility / np.sqrt(mass)),
+        circular_frequencies=np.append(omega[:count], residual),
+        impact_deflection=shapes[struck],
         z=z,
         deflection=deflection,
         shear=shear,

@@ -4,16 +4,21 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from pierimpact.checks import InputError
 from pierimpact.collision.averages import AverageForce, largest_average_force
 from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.simulate import simulate
 from pierimpact.design.band import ReactionBand, reaction_band
+from pierimpact.design.beam_band import BeamBand, beam_band
 from pierimpact.design.codes import CodeForce, aashto_lrfd, code_forces
 from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.design.sensitivity import SPEED_CHANGES, Sensitivity, sensitivity
 from pierimpact.design.static_forces import StaticForcesInCollision
 from pierimpact.files.case import Case
+from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.column import StruckColumn
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.pier.member_forces import BeamExtreme, MemberForceHistory, MemberForces
@@ -82,13 +87,26 @@ class Impact:
         return self.struck.member_forces(self.history.lowest.reaction)
 
     @cached_property
-    def beam_forces(self) -> MemberForceHistory | None:
-        """Member forces of the column as a beam; None where the case asks for static ones."""
+    def beam(self) -> BeamPier | None:
+        """The column as a beam; None where the case asks for static member forces."""
         inputs = self.case.inputs
         if inputs.member_forces == "static":
             return None
-        beam = self.case.column.beam(self.struck.impact_height, inputs.damping_ratio)
-        return simulate(self.case.truck, beam, inputs.speed).member_forces
+        return self.case.column.beam(self.struck.impact_height, inputs.damping_ratio)
+
+    @cached_property
+    def beam_forces(self) -> MemberForceHistory | None:
+        """Member forces of the column as a beam; None where the case asks for static ones."""
+        if self.beam is None:
+            return None
+        return simulate(self.case.truck, self.beam, self.case.inputs.speed).member_forces
+
+    def beam_band(self, band: ReactionBand) -> BeamBand:
+        """Return the member forces of the beam under the trucks of a band."""
+        assert self.beam is not None  # nobody asks for it without a beam
+        assert self.beam_forces is not None
+        # Numerical: trucks that come later than this one have the time to.
+        return beam_band(band, self.beam, 1.5 * float(self.beam_forces.time[-1]))
 
     @property
     def demands(self) -> dict[str, Demand]:
@@ -196,6 +214,46 @@ class Calculation:
         """The reactions that the spread of the truck's parameters makes."""
         return reaction_band(self.case.truck, self.pier, self.case.inputs.speed)
 
+    @cached_property
+    def growth(self) -> dict[str, NDArray[np.float64]]:
+        """What 5, 50 and 95 % of the trucks stay below, over that of this truck [-].
+
+        Of the "static" member forces, which go with the reaction, and of the "shear" and "moment"
+        of the column as a beam, at the height where they are largest. Empty without a spread.
+        """
+        if not self.band.spread:
+            return {}
+        found, bands = {"static": self.band.quantiles() / self.design_force}, {}
+        for name in ("shear", "moment"):
+            largest = self.largest_of_beam(name)
+            if largest is not None:
+                _, impact = largest
+                height = impact.struck.impact_height
+                if height not in bands:
+                    bands[height] = impact.beam_band(self.band)
+                found[name] = bands[height].growth(name)
+        return found
+
+    @property
+    def demand_bands(self) -> dict[str, tuple[float, float]]:
+        """Largest "shear" and "moment" that 5 and 95 % of the trucks stay below.
+
+        Each by the method that is asked for, of two the larger. Empty without a spread.
+        """
+        growth = self.growth
+        if not growth:
+            return {}
+
+        def ends(name: str, demand: Demand) -> tuple[float, float]:
+            found = {"static": demand.static * growth["static"]}
+            if demand.beam is not None:
+                found["beam"] = demand.beam * growth[name]
+            asked = list(found.values()) if demand.asked == "larger" else [found[demand.asked]]
+            low, _, high = np.max(asked, axis=0).tolist()
+            return low, high
+
+        return {name: ends(name, demand) for name, demand in self.demands.items()}
+
     @property
     def member_forces(self) -> MemberForces:
         """Member forces under the design reaction as a static force."""
@@ -291,6 +349,16 @@ class Calculation:
         return {
             name: self.demands[name].value / resistance
             for name, resistance in self.resistances.items()
+        }
+
+    @property
+    def upper_utilisations(self) -> dict[str, float]:
+        """The same at the upper end of the demand's band [-]; empty without a spread."""
+        bands = self.demand_bands
+        return {
+            name: bands[name][1] / resistance
+            for name, resistance in self.resistances.items()
+            if bands
         }
 
     def to_dataframe(self) -> Any:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from pierimpact.plain_text import WIDTH, text_item, text_table
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.outcome import first_results, statement, upper_utilisations, verdict
+from pierimpact.report.outcome import first_results, statement, verdict
 from pierimpact.report.results import Results
 from pierimpact.report.warnings import warnings_of
 from pierimpact.units import compared
@@ -42,7 +42,7 @@ def check_text(name: str, calculation: Calculation) -> str:
 
 
 def _utilisations(calculation: Calculation) -> Iterator[tuple[str, str, str]]:
-    upper = upper_utilisations(calculation)
+    upper = calculation.upper_utilisations
     for name, ratio in calculation.utilisations.items():
         at_upper = upper.get(name)
         remark = verdict(ratio, at_upper)

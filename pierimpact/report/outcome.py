@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from pierimpact.design.codes import aashto_lrfd
-from pierimpact.report.calculation import AVERAGE, Calculation, Demand
+from pierimpact.report.calculation import AVERAGE, Calculation
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, compared, printed, rounded, stated, unit_of
 
@@ -24,7 +24,7 @@ class FirstResult(NamedTuple):
 
 def statement(calculation: Calculation) -> str:
     """Return in a sentence whether the column holds, and how surely."""
-    ratios, at_upper = calculation.utilisations, upper_utilisations(calculation)
+    ratios, at_upper = calculation.utilisations, calculation.upper_utilisations
     if not ratios:
         shear, moment = _largest(calculation)
         return (
@@ -45,47 +45,6 @@ def statement(calculation: Calculation) -> str:
             f"of the band.{missing}"
         )
     return f"{holds}; {_listed(at_upper)} at the upper end of the band.{missing}"
-
-
-def growth(calculation: Calculation) -> dict[str, float]:
-    """Return by how much member forces are larger at the band's upper end [-]; empty without one.
-
-    "static" forces grow with the reaction; the "shear" and the "moment" of the beam as the peak of
-    engine or cargo during which they are largest, and at least as the reaction: this project's
-    choice, for another blow may govern the beam than governs the reaction.
-    """
-    band, peaks = calculation.band, calculation.history.peaks
-    if not band.spread:
-        return {}
-    found = {"static": float(band.quantiles()[2]) / calculation.design_force}
-    for name in DEMANDS:
-        largest = calculation.largest_of_beam(name)
-        if largest is not None:
-            extreme, impact = largest
-            contact = impact.history.cargo_contact_time
-            cargo = peaks["cargo"] if contact is not None and extreme.time >= contact else None
-            blow, peak = ("cargo", cargo) if cargo else ("engine", calculation.history.engine_peak)
-            grown = float(band.quantiles(of=blow)[2]) / peak.reaction
-            found[name] = max(found["static"], grown)
-    return found
-
-
-def upper_utilisations(calculation: Calculation) -> dict[str, float]:
-    """Return the utilisations at the band's upper end [-]; empty without a band."""
-    factors, demands = growth(calculation), calculation.demands
-    if not factors:
-        return {}
-
-    def upper(name: str, demand: Demand) -> float:
-        grown = {"static": demand.static * factors["static"]}
-        if demand.beam is not None:
-            grown["beam"] = demand.beam * factors[name]
-        return max(grown.values()) if demand.asked == "larger" else grown[demand.method]
-
-    return {
-        name: ratio * upper(name, demands[name]) / demands[name].value
-        for name, ratio in calculation.utilisations.items()
-    }
 
 
 def verdict(ratio: float, at_upper: float | None) -> str:
@@ -127,7 +86,9 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
         of_static = (
             "" if demand.beam is None else f"; static over beam {rounded(demand.ratio or 0.0, 3)}"
         )
-        yield FirstResult(f"Largest {name}", value, f"{METHODS[demand.method]}{of_static}")
+        ends = [shown(end, DEMANDS[name]) for end in result.demand_bands.get(name, ())]
+        in_band = f"; 5 to 95 %: {ends[0].number}–{ends[1]}" if ends else ""
+        yield FirstResult(f"Largest {name}", value, f"{METHODS[demand.method]}{in_band}{of_static}")
     average = result.average_forces[AVERAGE]
     if average is not None:
         code = aashto_lrfd(system)

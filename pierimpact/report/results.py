@@ -6,7 +6,6 @@ from typing import Any, Self
 from pydantic import BaseModel, ConfigDict
 
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.outcome import upper_utilisations
 from pierimpact.report.warnings import warnings_of
 from pierimpact.symbols import SYMBOLS
 
@@ -99,7 +98,7 @@ class Results(BaseModel):
             "moment_method": moment.method,
             "code_ratio": calculation.code_ratio,
             "utilisations": calculation.utilisations,
-            "upper_utilisations": upper_utilisations(calculation),
+            "upper_utilisations": calculation.upper_utilisations,
             "warnings": tuple(warnings_of(calculation)),
         }
         return cls.model_validate(case.inputs.model_dump() | calculated)

@@ -1,5 +1,6 @@
 """The first page: what the sheet comes to, how sure it is, and who answers for it."""
 
+from pierimpact.design.beam_band import SIZE as BEAM_BAND_SIZE
 from pierimpact.plots.situation import draw_situation
 from pierimpact.report.document.blocks import (
     Block,
@@ -16,9 +17,7 @@ from pierimpact.report.outcome import (
     DEMANDS,
     METHODS,
     first_results,
-    growth,
     statement,
-    upper_utilisations,
     verdict,
 )
 from pierimpact.report.sheet.section import Section
@@ -85,8 +84,8 @@ class FirstPage(Section):
         )
 
     def _at_upper_end(self) -> str:
-        """Return how utilisations at the upper end of the band follow, where there is one."""
-        factors = {name: rounded(factor, 3) for name, factor in growth(self.calculation).items()}
+        """Return by how much member forces grow to the upper end of the band, if there is one."""
+        factors = {name: rounded(high, 3) for name, (*_, high) in self.calculation.growth.items()}
         if not factors:
             return ""
         words = (
@@ -94,16 +93,13 @@ class FirstPage(Section):
         )
         if factors:
             grown = " and ".join(f"{factor} ({name})" for name, factor in factors.items())
-            words += (
-                f", those of the beam {grown} times, as the peak of engine or cargo in which they "
-                "are largest, at least as the reaction"
-            )
+            words += f", those of the beam {grown} times, by {BEAM_BAND_SIZE} of the trucks"
         return words
 
     def utilisations(self) -> Block | None:
         """Return demand, resistance and utilisation by either method; None without resistance."""
         inputs, result = self.case.inputs, self.calculation
-        upper = upper_utilisations(result)
+        upper = result.upper_utilisations
         if not result.utilisations:
             return None
         larger = inputs.member_forces == "larger"
