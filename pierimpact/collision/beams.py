@@ -25,7 +25,7 @@ TURN = 0.5  # of a body on its spring in one step [rad]
 RESIDUAL_TURN = 1.5  # of the last shape in one step [rad]
 SHORTEST = 1e-5  # step [s]; springs that would ask for a shorter one are made softer
 STEPS = 64  # between two looks at what they have come to
-APART = 4  # heights between those looked at, besides the ends of parts
+APART = 8  # heights between those looked at, besides the ends of parts
 AT_REST = 1e-9  # share of the speed
 
 
@@ -92,15 +92,16 @@ def largest_member_forces(
             force = np.maximum(envelope - ku * (largest_crush - crush), 0.0)
             velocity -= per_mass * force
             # Friction stops the body if it can, and slides at its limit otherwise.
-            slip = velocity[1] - np.where(on_pier, vp, 0.0)
-            limit = np.where(on_pier & (force[1] == 0.0), 0.0, friction_force)
-            friction = np.clip(slip / per_mass[1], -limit, limit)
+            limit = friction_force * ((force[1] > 0.0) | ~on_pier)
+            stopping = (velocity[1] - on_pier * vp) / per_mass[1]
+            friction = np.maximum(np.minimum(stopping, limit), -limit)
             velocity[1] -= per_mass[1] * friction
             displacement += step * velocity
-            on_beam = force.sum(axis=0) + np.where(on_pier, friction, 0.0)
+            on_beam = force[0] + force[1] + on_pier * friction
             q, q_before = last * q + before * q_before + pushed * on_beam, q
             motion[number] = q
-            xp, vp = phi @ q, (phi @ q - xp) / step
+            xp_before, xp = xp, phi @ q
+            vp = (xp - xp_before) / step
         time += STEPS * step
         if ((force > 0.0) | (velocity > at_rest)).any():
             left = time
