@@ -20,10 +20,11 @@ from pierimpact.pier.beam import BeamPier
 Array: TypeAlias = NDArray[np.float64]
 
 # Numerical settings.
-HIGHEST_FREQUENCY = 1000.0  # up to which modes are kept, the others being one shape [Hz]
-TURN = 0.5  # of a body on its spring in one step [rad]
+HIGHEST_FREQUENCY, MOST_MODES = 1000.0, 24  # that are kept, the others being one shape [Hz]
+TURN = 1.0  # of a body on its spring in one step [rad]
 RESIDUAL_TURN = 1.5  # of the last shape in one step [rad]
 SHORTEST = 1e-5  # step [s]; springs that would ask for a shorter one are made softer
+LONGER = 8  # times as long are steps when all trucks have left
 STEPS = 64  # between two looks at what they have come to
 APART = 8  # heights between those looked at, besides the ends of parts
 AT_REST = 1e-9  # share of the speed
@@ -51,64 +52,100 @@ def largest_member_forces(
     beam : BeamPier
         The pier that all of them strike.
     duration : float
-        Time to follow them at most [s]. They are followed until all trucks have left and the beam
-        has vibrated for a period of its first mode.
+        Time by which all trucks have left or are not followed any more [s]. When all have left
+        the beam still vibrates for a period of its first mode.
     """
-    beam = beam.up_to(HIGHEST_FREQUENCY)
-    omega, phi = beam.circular_frequencies, beam.impact_deflection
-    heights = _looked_at(beam.z)
-    fields = np.stack((beam.shear, beam.moment))[:, :, heights].transpose(0, 2, 1)
+    beam = beam.up_to(HIGHEST_FREQUENCY, MOST_MODES)
+    omega, phi = beam.circular_frequencies[:, None], beam.impact_deflection
+    trucks = _Trucks(parameters, beam.effective_mass, RESIDUAL_TURN / float(omega.max()))
+    fields = np.stack((beam.shear, beam.moment))[:, :, _looked_at(beam.z)].transpose(0, 2, 1)
 
-    mass, P, d, k, ku = map(np.stack, zip(parameters.engine, parameters.body, strict=True))
-    square = ku * (1.0 / mass + 1.0 / beam.effective_mass)  # of a body's circular frequency
-    step = max(min(TURN / math.sqrt(square.max()), RESIDUAL_TURN / omega[-1]), SHORTEST)
-    softer = np.minimum(1.0, (TURN / step) ** 2 / square)
-    k, ku = softer * k, softer * ku
-    d = np.maximum(d, P / ku)
+    def vibration(step: float) -> tuple[Array, Array]:
+        """Return the shares that the last displacement and the one before have in the next."""
+        zeta = beam.equivalent.damping_ratio
+        decay = np.exp(-zeta * omega * step)
+        return 2.0 * decay * np.cos(math.sqrt(1.0 - zeta**2) * omega * step), -(decay**2)
 
-    # A shape's displacement follows from the two before it, and the force.
-    zeta = beam.equivalent.damping_ratio
-    decay = np.exp(-zeta * omega * step)
-    last = 2.0 * decay * np.cos(math.sqrt(1.0 - zeta**2) * omega * step)
-    before = -(decay**2)
-    pushed = (1.0 - last - before) * phi / omega**2
-    last, before, pushed = last[:, None], before[:, None], pushed[:, None]
+    def largest(motion: Array) -> Array:
+        there = [field @ motion for field in fields]
+        return np.array([np.maximum(own.max((0, 1)), -own.min((0, 1))) for own in there])
 
-    speed, on_pier, friction_force = (
-        parameters.speed, parameters.on_pier, parameters.friction_force
-    )  # fmt: skip
-    per_mass, at_rest = step / mass, AT_REST * speed
-    velocity, displacement = np.stack((speed, speed)), np.zeros((2, len(speed)))
-    largest_crush, (q, q_before) = P / ku, np.zeros((2, len(omega), len(speed)))
-    xp = vp = np.zeros(len(speed))
-    motion = np.empty((STEPS, *q.shape))
-    found = np.zeros((2, len(speed)))
-    time = left = 0.0
-    while time < duration and time <= left + 2.0 * math.pi / omega[0]:
+    step, size = trucks.step, len(parameters.speed)
+    last, before = vibration(step)
+    pushed = (1.0 - last - before) * phi[:, None] / omega**2
+    q, q_before = np.zeros((2, len(omega), size))
+    motion, found = np.empty((STEPS, *q.shape)), np.zeros((2, size))
+    xp = vp = np.zeros(size)
+    for _ in range(math.ceil(duration / (STEPS * step))):
         for number in range(STEPS):
-            crush = displacement - xp
-            largest_crush = np.maximum(largest_crush, crush)
-            envelope = P + k * np.maximum(largest_crush - d, 0.0)
-            force = np.maximum(envelope - ku * (largest_crush - crush), 0.0)
-            velocity -= per_mass * force
-            # Friction stops the body if it can, and slides at its limit otherwise.
-            limit = friction_force * ((force[1] > 0.0) | ~on_pier)
-            stopping = (velocity[1] - on_pier * vp) / per_mass[1]
-            friction = np.maximum(np.minimum(stopping, limit), -limit)
-            velocity[1] -= per_mass[1] * friction
-            displacement += step * velocity
-            on_beam = force[0] + force[1] + on_pier * friction
-            q, q_before = last * q + before * q_before + pushed * on_beam, q
+            force = trucks.advance(xp, vp)
+            q, q_before = last * q + before * q_before + pushed * force, q
             motion[number] = q
             xp_before, xp = xp, phi @ q
             vp = (xp - xp_before) / step
-        time += STEPS * step
-        if ((force > 0.0) | (velocity > at_rest)).any():
-            left = time
-        there = [field @ motion for field in fields]
-        largest = [np.maximum(values.max((0, 1)), -values.min((0, 1))) for values in there]
-        found = np.maximum(found, largest)
+        found = np.maximum(found, largest(motion))
+        if trucks.have_left:
+            break
+    else:
+        return LargestMemberForces(*found)
+
+    last, before = vibration(LONGER * step)
+    q, q_before = motion[-1], motion[-1 - LONGER]
+    for _ in range(math.ceil(2.0 * math.pi / float(omega.min()) / (STEPS * LONGER * step))):
+        for number in range(STEPS):
+            q, q_before = last * q + before * q_before, q
+            motion[number] = q
+        found = np.maximum(found, largest(motion))
     return LargestMemberForces(*found)
+
+
+class _Trucks:
+    """The trucks of many collisions, engines in the first row and bodies in the second.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        As in `largest_member_forces`.
+    beam_mass : float
+        Mass of the beam that resists a sudden force [kg].
+    longest : float
+        Longest step [s].
+    """
+
+    def __init__(self, parameters: Parameters, beam_mass: float, longest: float) -> None:
+        springs = map(np.stack, zip(parameters.engine, parameters.body, strict=True))
+        mass, self.P, d, k, ku = springs
+        square = ku * (1.0 / mass + 1.0 / beam_mass)  # of a circular frequency
+        self.step = max(min(TURN / math.sqrt(square.max()), longest), SHORTEST)
+        softer = np.minimum(1.0, (TURN / self.step) ** 2 / square)
+        self.k, self.ku = softer * k, softer * ku
+        self.d = np.maximum(d, self.P / self.ku)
+        self.per_mass = self.step / mass
+        self.speed = np.stack((parameters.speed, parameters.speed))
+        self.on_pier, self.friction_force = parameters.on_pier, parameters.friction_force
+        self.largest_crush = self.P / self.ku
+        self.displacement, self.velocity = np.zeros_like(mass), self.speed.copy()
+        self.force = np.zeros_like(mass)  # of the springs [N]
+
+    def advance(self, xp: Array, vp: Array) -> Array:
+        """Take a step by the displacement and rate of the pier; return the force on it [N]."""
+        crush = self.displacement - xp
+        self.largest_crush = largest = np.maximum(self.largest_crush, crush)
+        envelope = self.P + self.k * np.maximum(largest - self.d, 0.0)
+        self.force = force = np.maximum(envelope - self.ku * (largest - crush), 0.0)
+        self.velocity -= self.per_mass * force
+        # Friction stops the body where it can, and slides at its limit otherwise.
+        limit = self.friction_force * ((force[1] > 0.0) | ~self.on_pier)
+        stopping = (self.velocity[1] - self.on_pier * vp) / self.per_mass[1]
+        friction = np.maximum(np.minimum(stopping, limit), -limit)
+        self.velocity[1] -= self.per_mass[1] * friction
+        self.displacement += self.step * self.velocity
+        return np.asarray(force[0] + force[1] + self.on_pier * friction)
+
+    @property
+    def have_left(self) -> bool:
+        """Whether none is in contact any more or moves towards the pier."""
+        return not bool(((self.force > 0.0) | (self.velocity > AT_REST * self.speed)).any())
 
 
 def _looked_at(z: Array) -> NDArray[np.intp]:

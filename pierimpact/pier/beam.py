@@ -81,12 +81,13 @@ class BeamPier:
         """Mass 1/Σ φ(z_n)² that resists a sudden force at z_n [kg]."""
         return float(1.0 / np.sum(self.impact_deflection**2))
 
-    def up_to(self, frequency: float) -> "BeamPier":
-        """Return the same beam with its natural modes up to a frequency [Hz], and at least one.
+    def up_to(self, frequency: float, most: int = MOST_ASKED) -> "BeamPier":
+        """Return the same beam with its natural modes up to a frequency [Hz], from one to `most`.
 
         Its other shapes become one, so that it is exact for a static force as before.
         """
-        kept = max(1, int(np.searchsorted(self.frequencies, frequency, side="right")))
+        count = int(np.searchsorted(self.frequencies, frequency, side="right"))
+        kept = max(1, min(count, most))
         omega, phi = self.circular_frequencies, self.impact_deflection
         if kept == len(omega):  # a single shape, and no residual
             return self

@@ -99,6 +99,7 @@ class Figure(Block):
     caption: Inline
     alt: str  #: description for readers who cannot see it
     svg: str
+    lead: Inline = ""  #: words above it, on the same page
 
 
 def align_decimals(cells: Sequence[Inline]) -> list[Inline]:

@@ -41,6 +41,8 @@ class Codes(Section):
         band = result.band.quantiles() if result.band.spread else None
         return Figure(
             label="fig-codes",
+            lead="The forces of codes beside averages of the contact force, as tests report it; "
+            "then what moves the reaction most.",
             caption="Forces of codes along the travel, the largest averages of the contact force, "
             "and the design reaction. That of AASHTO LRFD was taken from a 25 ms average. Hatched: "
             "not read in the code itself.",
