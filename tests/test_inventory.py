@@ -121,6 +121,21 @@ def test_the_command_writes_a_table_that_the_portfolio_reads(tmp_path, rules, ca
     assert "the inventory does not hold it: column_shape, column_diameter" in said.err
 
 
+def test_tables_that_somebody_changed_are_kept(tmp_path, rules, capsys):
+    file, output = inventory(tmp_path / "nbi.txt", [{}]), tmp_path / "p.csv"
+    command = ["inventory", str(file), "--rules", str(rules), "--output", str(output)]
+    assert main(command) == main(command) == 0
+    held = tmp_path / "p-inventory.csv"
+    written = output.read_bytes()
+    for changed in (output, held):
+        changed.write_bytes(changed.read_bytes() + b"mine\n")
+        assert main(command) == 2
+        assert f"{changed} was not written by pierimpact, or changed" in capsys.readouterr().err
+        assert changed.read_bytes().endswith(b"mine\n")
+        assert main([*command, "--force"]) == 0
+    assert output.read_bytes() == written
+
+
 @pytest.mark.parametrize(
     ("text", "error"),
     [

@@ -388,6 +388,19 @@ def test_none_that_can_be_read_is_bad_input(tmp_path, capsys, content):
     assert err.count("\n") == 1
 
 
+def test_a_table_to_which_a_teacher_added_is_kept(tmp_path, capsys):
+    (tmp_path / file_name("pier")).write_text(Work("pier", "Anna").written())
+    marks = tmp_path / "marks.csv"
+    command = ["collect", str(tmp_path), "--csv", str(marks)]
+    assert cli.main(command) == cli.main(command) == 0
+    marks.write_text(marks.read_text("utf-8") + "my remarks\n", "utf-8")
+    assert cli.main(command) == 2
+    assert f"{marks} was not written by pierimpact, or changed since" in capsys.readouterr().err
+    assert marks.read_text("utf-8").endswith("my remarks\n")
+    assert cli.main([*command, "--force"]) == 0
+    assert "my remarks" not in marks.read_text("utf-8")
+
+
 def test_a_table_that_cannot_be_written_is_bad_input(tmp_path, capsys):
     (tmp_path / file_name("pier")).write_text(Work("pier", "Anna").written())
     assert cli.main(["collect", str(tmp_path), "--csv", str(tmp_path / "no" / "marks.csv")]) == 2

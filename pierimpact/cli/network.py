@@ -134,7 +134,8 @@ structure, such as
   column_diameter = "36 in"
 
 Beside PIERS.csv, PIERS-inventory.csv has what the inventory holds of the same bridges: coordinates,
-year, lanes under, traffic and trucks a day, and clearances.
+year, lanes under, traffic and trucks a day, and clearances. Tables that are there already are
+replaced, unless somebody changed them.
 """
 
 
@@ -156,13 +157,16 @@ def add_inventory(commands: Any) -> None:
         "--output", metavar="PIERS.csv", default="piers.csv",
         help="table to write (default: %(default)s)",
     )  # fmt: skip
+    inventory.add_argument(
+        "--force", action="store_true", help="replace tables that somebody changed, too"
+    )
     inventory.set_defaults(run=_inventory)
 
 
 def _inventory(options: argparse.Namespace) -> int:
     try:
         from pierimpact.files.inventory import piers_of, read_rules
-        from pierimpact.files.write import write_files
+        from pierimpact.files.unchanged import write_unchanged
     except ModuleNotFoundError as error:
         return needs("inventories", error)
     rules = read_rules(Path(options.rules))
@@ -173,7 +177,8 @@ def _inventory(options: argparse.Namespace) -> int:
         raise InputError(f"{options.inventory} has no bridge that gives a pier: nothing written")
     output = Path(options.output)
     held = output.with_name(f"{output.stem}-inventory.csv")
-    write_files({output: piers.piers, held: piers.held})
+    tables = {output.name: piers.piers, held.name: piers.held}
+    write_unchanged(tables, output.parent, force=options.force)
     complain(f"by the rules, for the inventory does not hold it: {', '.join(rules.keys)}")
     print(output, held, sep="\n")
     return 0

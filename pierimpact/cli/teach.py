@@ -5,13 +5,14 @@ from pathlib import Path
 from typing import Any
 
 from pierimpact.cli.terminal import complain, needs
-from pierimpact.files.write import write_files
+from pierimpact.files.unchanged import write_unchanged
 from pierimpact.teaching.launch import DEFAULT_FOLDER, TeachError, open_notebooks
 
 _COLLECT = """\
 Read the answer files (*.answers.json) that the teaching notebooks write, from a folder and all
 folders below it, check the answers again, and write a table with a row a student: name or number,
-right answers in total, and for each question whether it is right and after how many tries.
+right answers in total, and for each question whether it is right and after how many tries. A table
+that is there already is replaced, unless somebody changed it.
 """
 _COLLECT_EXIT_CODES = "Exit code: 0 if any file was read; 2 if none was; 1 if anything failed."
 _PAGE = """\
@@ -66,6 +67,9 @@ def add_collect(commands: Any) -> None:
         default="marks.csv",
         help="table to write (default: %(default)s)",
     )
+    collect.add_argument(
+        "--force", action="store_true", help="replace a table that somebody changed"
+    )
     collect.set_defaults(run=_collect)
 
 
@@ -105,8 +109,8 @@ def _teach(options: argparse.Namespace) -> int:
 def _collect(options: argparse.Namespace) -> int:
     from pierimpact.teaching.marks import collect
 
-    marks = collect(options.folder)
-    write_files({Path(options.csv): marks.table.encode()})
+    marks, table = collect(options.folder), Path(options.csv)
+    write_unchanged({table.name: marks.table.encode()}, table.parent, force=options.force)
     print(f"{options.csv}: students {marks.students}, files read {marks.files}", flush=True)
     for remark in marks.remarks:
         complain(remark)
