@@ -300,6 +300,10 @@ def test_the_csv_reads_back_to_four_figures(made):
             "code ratio": outcome.average_forces[0.025].force / (600.0 * KIP),
             "utilisation in shear": outcome.utilisations.get("shear"),
             "utilisation in moment": outcome.utilisations.get("moment"),
+            "shear, 95 % of trucks below [kN]": outcome.demand_bands["shear"][1] / 1e3,
+            "moment, 95 % of trucks below [kN·m]": outcome.demand_bands["moment"][1] / 1e3,
+            "utilisation in shear at 95 %": outcome.upper_utilisations.get("shear"),
+            "utilisation in moment at 95 %": outcome.upper_utilisations.get("moment"),
         }
         for column, value in values.items():
             found = float(row[column]) if row[column] else None

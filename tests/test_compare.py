@@ -142,13 +142,19 @@ def test_the_band_and_the_method_of_member_forces(calculated):
     assert shear.old.endswith("kN (static)")
     assert shear.new.endswith("kN (beam)")
     assert shear.percent == pytest.approx(100.0 * (beam.value / static.value - 1.0))
-    assert not any("trucks" in name for name in found)
-    low, _, high = old.band.quantiles()
+    upper = found["Shear that 95 % of trucks stay below"]
+    grown = new.demand_bands["shear"][1] / old.demand_bands["shear"][1]
+    assert upper.percent == pytest.approx(100.0 * (grown - 1.0))
+    assert not any("trucks" in name for name in found if name.startswith("Reaction"))
+    (low, _, high), bands = old.band.quantiles(), old.demand_bands
     lost = {
         c.name: c for c in compare(old, calculated(truck_mass=None)).results if "trucks" in c.name
     }
     assert [(c.old, c.new) for c in lost.values()] == [
-        (f"{end / 1e3:.0f} kN", "—") for end in (low, high)
+        (f"{low / 1e3:.0f} kN", "—"),
+        (f"{high / 1e3:.0f} kN", "—"),
+        (f"{bands['shear'][1] / 1e3:.0f} kN", "—"),
+        (f"{bands['moment'][1] / 1e3:.0f} kN·m", "—"),
     ]
 
 

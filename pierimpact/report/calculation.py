@@ -379,7 +379,10 @@ class Calculation:
             raise ModuleNotFoundError(message, name=error.name) from None
         history, cargo = self.history, self.history.cargo_peak
         low, _, high = self.band.quantiles() if self.band.spread else (None, None, None)
-        utilisations = self.utilisations
+        utilisations, upper = self.utilisations, self.upper_utilisations
+        (_, shear_high), (_, moment_high) = (
+            self.demand_bands.get(name, (None, None)) for name in ("shear", "moment")
+        )
         rows = {
             "impact_height": (self.struck.impact_height, "m"),
             "pier_mass": (self.pier.mass, "kg"),
@@ -393,9 +396,13 @@ class Calculation:
             "band_high": (high, "N"),
             "largest_shear": (self.demands["shear"].value, "N"),
             "largest_moment": (self.demands["moment"].value, "N m"),
+            "shear_high": (shear_high, "N"),
+            "moment_high": (moment_high, "N m"),
             "code_ratio": (self.code_ratio, "-"),
             "shear_utilisation": (utilisations.get("shear"), "-"),
             "moment_utilisation": (utilisations.get("moment"), "-"),
+            "upper_shear_utilisation": (upper.get("shear"), "-"),
+            "upper_moment_utilisation": (upper.get("moment"), "-"),
         }
         frame = DataFrame.from_dict(rows, orient="index", columns=["value", "unit"])
         return frame.astype({"value": float})

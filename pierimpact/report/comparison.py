@@ -15,6 +15,7 @@ from pierimpact.plain_text import text_item, text_table
 from pierimpact.report.calculation import Calculation
 from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
+from pierimpact.report.outcome import DEMANDS
 from pierimpact.report.results import Results
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import compared, printed, rounded
@@ -297,11 +298,15 @@ def _results(results: Results) -> dict[Hashable, _Value]:
         _Value("Largest shear", results.largest_shear, "force", (results.shear_method,)),
         _Value("Largest moment", results.largest_moment, "moment", (results.moment_method,)),
         _Value("25 ms average over AASHTO LRFD", results.code_ratio, "ratio"),
-        *(
-            _Value(f"Utilisation in {check}", results.utilisations.get(check), "ratio")
-            for check in ("shear", "moment")
-        ),
     ]
+    for check, quantity in DEMANDS.items():
+        _, high = results.member_bands.get(check, (None, None))
+        at_upper = results.upper_utilisations.get(check)
+        values += [
+            _Value(f"{check.capitalize()} that 95 % of trucks stay below", high, quantity),
+            _Value(f"Utilisation in {check}", results.utilisations.get(check), "ratio"),
+            _Value(f"Utilisation in {check} at 95 %", at_upper, "ratio"),
+        ]
     return {value.name: value for value in values}
 
 

@@ -57,6 +57,8 @@ class Results(BaseModel):
     shear_method: str  #: that it is found by, "beam" or "static"
     largest_moment: float
     moment_method: str
+    #: Largest "shear" and "moment" that 5 and 95 % of trucks stay below; empty without a band.
+    member_bands: dict[str, tuple[float, float]]
     #: 25 ms average of the contact force over the force of AASHTO LRFD, which is such an average;
     #: None where the collision is over sooner.
     code_ratio: float | None
@@ -96,6 +98,7 @@ class Results(BaseModel):
             "shear_method": shear.method,
             "largest_moment": moment.value,
             "moment_method": moment.method,
+            "member_bands": calculation.demand_bands,
             "code_ratio": calculation.code_ratio,
             "utilisations": calculation.utilisations,
             "upper_utilisations": calculation.upper_utilisations,

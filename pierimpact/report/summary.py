@@ -126,6 +126,9 @@ _OF_THE_CSV = (
     _Column("reaction, 5 % of trucks below", quantity="force"),
     _Column("reaction, 95 % of trucks below", quantity="force"),
     *_OF_THE_TABLE[3:-1],
+    _Column("shear, 95 % of trucks below", quantity="force"),
+    _Column("moment, 95 % of trucks below", quantity="moment"),
+    *(_Column(f"utilisation in {check} at 95 %", quantity="ratio") for check in CHECKS),
     _Column("warnings"),
     _Column("reason"),
 )
@@ -356,7 +359,11 @@ def _values(row: Row, system: str) -> dict[str, Any]:
     if result is None:
         return {"case": row.name, "status": "not calculated", "reason": "; ".join(row.remarks)}
     values = {name.replace("_", " "): value for name, value in result.model_dump().items()}
-    values |= {f"utilisation in {check}": result.utilisations.get(check) for check in CHECKS}
+    for check in CHECKS:
+        values[f"utilisation in {check}"] = result.utilisations.get(check)
+        values[f"utilisation in {check} at 95 %"] = result.upper_utilisations.get(check)
+        _, high = result.member_bands.get(check, (None, None))
+        values[f"{check}, 95 % of trucks below"] = high
     low, high = result.band or (None, None)
     warnings = _warnings(row)
     return values | {
