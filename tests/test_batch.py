@@ -235,7 +235,7 @@ def test_the_summary_has_the_values_of_the_reports(made):
         shear, moment = (outcome.demands[name] for name in ("shear", "moment"))
         in_report = [printed(outcome.design_force, "force", "SI").number]
         assert results[0] == in_report[0]
-        assert results[1] == "–".join(rounded(end / 1e3, 3) for end in (low, high))
+        assert results[1] == "–".join(rounded(end / 1e3, 4) for end in (low, high))
         for shown, demand, quantity in (
             (results[2:4], shear, "force"),
             (results[4:6], moment, "moment"),

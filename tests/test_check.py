@@ -39,7 +39,7 @@ def words_of(text):
         ({}, "The column does not hold: utilisation ", {"shear": "within", "moment": "EXCEEDS"}),
         (
             {"moment_resistance": "6500 kip*ft", "shear_resistance": None},
-            "The column holds this truck: utilisation ",
+            "The column holds this truck as far as it is checked: utilisation ",
             {"moment": "within"},
         ),
         (

@@ -25,7 +25,7 @@ TURN = 1.0  # of a body on its spring in one step [rad]
 RESIDUAL_TURN = 1.5  # of the last shape in one step [rad]
 SHORTEST = 1e-5  # step [s]; springs that would ask for a shorter one are made softer
 LONGER = 8  # times as long are steps when all trucks have left
-STEPS = 64  # between two looks at what they have come to
+STEPS = 16  # between two looks at what they have come to; more than LONGER
 APART = 8  # heights between those looked at, besides the ends of parts
 AT_REST = 1e-9  # share of the speed
 
@@ -79,8 +79,10 @@ def largest_member_forces(
     for _ in range(math.ceil(duration / (STEPS * step))):
         for number in range(STEPS):
             force = trucks.advance(xp, vp)
-            q, q_before = last * q + before * q_before + pushed * force, q
-            motion[number] = q
+            after = np.multiply(last, q, out=motion[number])
+            after += before * q_before
+            after += pushed * force
+            q, q_before = after, q
             xp_before, xp = xp, phi @ q
             vp = (xp - xp_before) / step
         found = np.maximum(found, largest(motion))
@@ -93,8 +95,9 @@ def largest_member_forces(
     q, q_before = motion[-1], motion[-1 - LONGER]
     for _ in range(math.ceil(2.0 * math.pi / float(omega.min()) / (STEPS * LONGER * step))):
         for number in range(STEPS):
-            q, q_before = last * q + before * q_before, q
-            motion[number] = q
+            after = np.multiply(last, q, out=motion[number])
+            after += before * q_before
+            q, q_before = after, q
         found = np.maximum(found, largest(motion))
     return LargestMemberForces(*found)
 

@@ -130,6 +130,19 @@ class ReactionBand:
         truck = truck_of(own, self.collision.truck)
         return replace(self.collision, truck=truck, speed=own.speed)
 
+    def on(self, pier: EquivalentPier) -> Reactions:
+        """Return the reactions of the same sampled trucks on another pier."""
+        if pier == self.collision.equivalent_pier:
+            return self.reactions
+        same = np.ones_like(self.parameters.speed)
+        return full_model(
+            self.parameters._replace(
+                pier_mass=pier.mass * same,
+                pier_stiffness=pier.stiffness * same,
+                pier_damping=pier.damping * same,
+            )
+        )
+
     def average_forces(self, windows: Sequence[float], count: int = 128) -> Array:
         """Return the largest moving averages of the contact force in the first `count` collisions.
 

@@ -45,7 +45,7 @@ def draw_code_bars(
         Units to print in.
     """
     size = unit_size("force", system)
-    name = "Peak reaction" + ("" if band is None else ", with 5 to 95 % of its band")
+    name = "Peak reaction" + ("" if band is None else ", with its band, 5 to 95 %")
     rows = [(name, shown(reaction, "force", system), reaction, _REACTION)]
     for window, force in averages.items():
         words = f"Contact force, {shown(window, 'time', system, given=True)} average"

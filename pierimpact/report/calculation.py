@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from pierimpact.checks import InputError
 from pierimpact.collision.averages import AverageForce, largest_average_force
 from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.simulate import simulate
-from pierimpact.design.band import ReactionBand, reaction_band
+from pierimpact.design.band import LEVELS, ReactionBand, reaction_band
 from pierimpact.design.beam_band import BeamBand, beam_band
 from pierimpact.design.codes import CodeForce, aashto_lrfd, code_forces
 from pierimpact.design.reaction import DesignReaction, design_reaction
@@ -22,6 +22,8 @@ from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.column import StruckColumn
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.pier.member_forces import BeamExtreme, MemberForceHistory, MemberForces
+
+Array: TypeAlias = NDArray[np.float64]
 
 #: Windows of the moving averages that crash tests report: 10 and 25 ms as read in NCHRP Report 892,
 #: 50 ms from memory [s].
@@ -215,44 +217,71 @@ class Calculation:
         return reaction_band(self.case.truck, self.pier, self.case.inputs.speed)
 
     @cached_property
-    def growth(self) -> dict[str, NDArray[np.float64]]:
-        """What 5, 50 and 95 % of the trucks stay below, over that of this truck [-].
+    def reaction_band(self) -> tuple[float, float, float] | None:
+        """Reactions that 5, 50 and 95 % of the sampled trucks stay below; None without a spread.
 
-        Of the "static" member forces, which go with the reaction, and of the "shear" and "moment"
-        of the column as a beam, at the height where they are largest. Empty without a spread.
+        Of each truck the larger of all impacts.
+        """
+        if not self.band.spread:
+            return None
+        low, middle, high = np.quantile(np.max(self._reactions, axis=0), LEVELS).tolist()
+        return low, middle, high
+
+    @cached_property
+    def _reactions(self) -> list[Array]:
+        """The reactions of the sampled trucks, by impact."""
+        return [self.band.on(impact.history.pier).governing for impact in self.impacts]
+
+    @cached_property
+    def sampled_demands(self) -> dict[str, dict[str, Array]]:
+        """Largest "shear" and "moment" of the sampled trucks by method.
+
+        By "static" and, where there is a beam, by "beam" and the "larger" of both; of each truck
+        the larger of all impacts. Empty without a spread.
         """
         if not self.band.spread:
             return {}
-        found, bands = {"static": self.band.quantiles() / self.design_force}, {}
-        for name in ("shear", "moment"):
-            largest = self.largest_of_beam(name)
-            if largest is not None:
-                _, impact = largest
-                height = impact.struck.impact_height
-                if height not in bands:
-                    bands[height] = impact.beam_band(self.band)
-                found[name] = bands[height].growth(name)
-        return found
+        beams = [impact.beam_band(self.band) for impact in self.impacts if impact.beam is not None]
+
+        def sampled(name: str) -> dict[str, Array]:
+            of_impacts = [impact.demands[name] for impact in self.impacts]
+            static = [
+                demand.static * reactions / impact.reaction
+                for impact, demand, reactions in zip(
+                    self.impacts, of_impacts, self._reactions, strict=True
+                )
+            ]
+            beam = [
+                (demand.beam or 0.0) * own.ratios(name)
+                for demand, own in zip(of_impacts, beams, strict=False)
+            ]
+            if not beam:
+                return {"static": np.max(static, axis=0)}
+            found = {"static": np.max(static, axis=0), "beam": np.max(beam, axis=0)}
+            return found | {"larger": np.fmax(found["static"], found["beam"])}
+
+        return {name: sampled(name) for name in ("shear", "moment")}
+
+    def upper_demands(self, method: str) -> dict[str, float]:
+        """Return the "shear" and "moment" that 95 % of the trucks stay below by a method."""
+        return {
+            name: float(np.quantile(by_method[method], LEVELS[-1]))
+            for name, by_method in self.sampled_demands.items()
+        }
 
     @property
     def demand_bands(self) -> dict[str, tuple[float, float]]:
-        """Largest "shear" and "moment" that 5 and 95 % of the trucks stay below.
+        """Largest "shear" and "moment" that 5 and 95 % of the sampled trucks stay below.
 
-        Each by the method that is asked for, of two the larger. Empty without a spread.
+        By the method that is asked for, or of each truck by the larger. Empty without a spread.
         """
-        growth = self.growth
-        if not growth:
-            return {}
-
-        def ends(name: str, demand: Demand) -> tuple[float, float]:
-            found = {"static": demand.static * growth["static"]}
-            if demand.beam is not None:
-                found["beam"] = demand.beam * growth[name]
-            asked = list(found.values()) if demand.asked == "larger" else [found[demand.asked]]
-            low, _, high = np.max(asked, axis=0).tolist()
-            return low, high
-
-        return {name: ends(name, demand) for name, demand in self.demands.items()}
+        asked = self.case.inputs.member_forces
+        ends = (LEVELS[0], LEVELS[-1])
+        found = {
+            name: np.quantile(by_method[asked], ends).tolist()
+            for name, by_method in self.sampled_demands.items()
+        }
+        return {name: (low, high) for name, (low, high) in found.items()}
 
     @property
     def member_forces(self) -> MemberForces:
@@ -354,11 +383,14 @@ class Calculation:
     @property
     def upper_utilisations(self) -> dict[str, float]:
         """The same at the upper end of the demand's band [-]; empty without a spread."""
-        bands = self.demand_bands
+        return self.upper_utilisations_by(self.case.inputs.member_forces)
+
+    def upper_utilisations_by(self, method: str) -> dict[str, float]:
+        """Return them by one of the methods of `sampled_demands`."""
         return {
-            name: bands[name][1] / resistance
-            for name, resistance in self.resistances.items()
-            if bands
+            name: demand / self.resistances[name]
+            for name, demand in self.upper_demands(method).items()
+            if name in self.resistances
         }
 
     def to_dataframe(self) -> Any:
@@ -378,7 +410,7 @@ class Calculation:
             message = "to_dataframe needs pandas: pip install pandas"
             raise ModuleNotFoundError(message, name=error.name) from None
         history, cargo = self.history, self.history.cargo_peak
-        low, _, high = self.band.quantiles() if self.band.spread else (None, None, None)
+        low, _, high = self.reaction_band or (None, None, None)
         utilisations, upper = self.utilisations, self.upper_utilisations
         (_, shear_high), (_, moment_high) = (
             self.demand_bands.get(name, (None, None)) for name in ("shear", "moment")

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from pierimpact.design.band import ReactionBand
 from pierimpact.design.codes import aashto_lrfd
 from pierimpact.report.calculation import AVERAGE, Calculation
 from pierimpact.symbols import BY_KEY
@@ -33,18 +34,22 @@ def statement(calculation: Calculation) -> str:
         )
     missing = "".join(f" The {name} is not checked." for name in DEMANDS if name not in ratios)
     failing = {name: ratio for name, ratio in ratios.items() if ratio > 1.0}
+    beyond = {
+        name: ratio for name, ratio in at_upper.items() if ratio > 1.0 and name not in failing
+    }
     if failing:
-        return f"The column does not hold: utilisation {_listed(failing)}.{missing}"
-    holds = f"The column holds this truck: utilisation {_listed(ratios)}"
+        more = f"; at the upper end of the band {listed(beyond)}, too" if beyond else ""
+        return f"The column does not hold: utilisation {listed(failing)}{more}.{missing}"
+    checked = " as far as it is checked" if missing else ""
+    holds = f"The column holds this truck{checked}: utilisation {listed(ratios)}"
     if not at_upper:
         return f"{holds}, if the truck is known exactly.{missing}"
-    beyond = {name: ratio for name, ratio in at_upper.items() if ratio > 1.0}
     if beyond:
         return (
-            f"{holds}; but not every truck of its spread: {_listed(beyond)} at the upper end "
+            f"{holds}; but not every truck of its spread: {listed(beyond)} at the upper end "
             f"of the band.{missing}"
         )
-    return f"{holds}; {_listed(at_upper)} at the upper end of the band.{missing}"
+    return f"{holds}; {listed(at_upper)} at the upper end of the band.{missing}"
 
 
 def verdict(ratio: float, at_upper: float | None) -> str:
@@ -71,23 +76,22 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
         f"{result.governs} peak of the full model, at {height} above the ground{of_both}; by "
         f"hand {shown(result.short.reaction, 'force')}, {rounded(result.ratio, 3)} times",
     )
-    band = result.band
-    if band.spread:
-        low, _, high = (shown(value, "force").number for value in band.quantiles())
-        name, share = next(iter(band.influence.items()))
+    if result.reaction_band is not None:
+        low, _, high = (shown(value, "force").number for value in result.reaction_band)
+        larger = ", of each truck the larger of both heights" if len(result.impacts) > 1 else ""
         yield FirstResult(
             "Band, 5 to 95 %",
             Printed(f"{low}–{high}", unit_of("force", system)),
-            f"as the truck’s parameters{_but_for(result)} vary within their spread; moved most by "
-            f"the {BY_KEY[name].meaning}, {band.spread[name].words}: "
-            f"{rounded(100.0 * share, 2)} % of the variance, alone and with others",
+            f"as the truck’s parameters{_but_for(result)} vary within their spread{larger}; "
+            f"{_moved_most(result.band)}",
         )
     for (name, demand), value in zip(result.demands.items(), _largest(result), strict=True):
         of_static = (
             "" if demand.beam is None else f"; static over beam {rounded(demand.ratio or 0.0, 3)}"
         )
         ends = [shown(end, DEMANDS[name]) for end in result.demand_bands.get(name, ())]
-        in_band = f"; 5 to 95 %: {ends[0].number}–{ends[1]}" if ends else ""
+        larger = ", of each truck the larger" if demand.asked == "larger" else ""
+        in_band = f"; 5 to 95 %: {ends[0].number}–{ends[1]}{larger}" if ends else ""
         yield FirstResult(f"Largest {name}", value, f"{METHODS[demand.method]}{in_band}{of_static}")
     average = result.average_forces[AVERAGE]
     if average is not None:
@@ -103,6 +107,17 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
         "Pier frequency",
         shown(pier.frequency, "frequency"),
         f"{shown(pier.stiffness, 'stiffness')}, {shown(pier.mass, 'mass')}",
+    )
+
+
+def _moved_most(band: ReactionBand) -> str:
+    """Return which parameter moves the reaction most, if any does."""
+    name, share = next(iter(band.influence.items()))
+    if share == 0.0:
+        return "the spread that the truck file gives does not move it"
+    return (
+        f"moved most by the {BY_KEY[name].meaning}, {band.spread[name].words}: "
+        f"{rounded(100.0 * share, 2)} % of the variance, alone and with others"
     )
 
 
@@ -123,6 +138,6 @@ def _largest(calculation: Calculation) -> list[Printed]:
     ]
 
 
-def _listed(ratios: dict[str, float]) -> str:
+def listed(ratios: dict[str, float]) -> str:
     """Return utilisations as "0.71 in shear and 0.86 in moment"."""
     return " and ".join(f"{compared(ratio)} in {name}" for name, ratio in ratios.items())

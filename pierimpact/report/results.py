@@ -72,7 +72,7 @@ class Results(BaseModel):
         case, history = calculation.case, calculation.history
         section, cargo = case.column.section, history.cargo_peak
         shear, moment = (calculation.demands[name] for name in ("shear", "moment"))
-        low, _, high = calculation.band.quantiles()
+        reactions = calculation.reaction_band
         calculated = {
             "column_sizes": tuple(
                 getattr(section, name)
@@ -92,7 +92,7 @@ class Results(BaseModel):
             "cargo_peak": None if cargo is None else cargo.reaction,
             "design_reaction": calculation.design_force,
             "hand_reaction": calculation.short.reaction,
-            "band": (float(low), float(high)) if calculation.band.spread else None,
+            "band": (reactions[0], reactions[-1]) if reactions else None,
             "governs": calculation.governs,
             "largest_shear": shear.value,
             "shear_method": shear.method,

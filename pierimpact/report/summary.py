@@ -63,7 +63,7 @@ class _Column(NamedTuple):
         if not value and not isinstance(value, float):
             return self.missing
         if isinstance(value, tuple):  # the ends of a range
-            return "–".join(rounded(end / unit_size(self.quantity, system), 3) for end in value)
+            return "–".join(rounded(end / unit_size(self.quantity, system), 4) for end in value)
         if self.quantity == "ratio":
             return compared(value)
         if not self.quantity:

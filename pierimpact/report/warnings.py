@@ -61,18 +61,24 @@ def _smaller_asked(calculation: Calculation) -> Iterator[str]:
 
 def _too_low(calculation: Calculation) -> Iterator[str]:
     """Yield where the reaction as a static force gives too little."""
-    beyond = {
+    beams = {
         name: 1.0 / demand.ratio
         for name, demand in calculation.demands.items()
-        if demand.ratio is not None and demand.ratio < TOO_LOW
+        if demand.ratio is not None
     }
+    where, beyond = "", {name: ratio for name, ratio in beams.items() if ratio * TOO_LOW > 1.0}
+    if beams and not beyond and calculation.band.spread:
+        beam, static = (calculation.upper_demands(method) for method in ("beam", "static"))
+        beyond = {name: beam[name] / static[name] for name in beam}
+        beyond = {name: ratio for name, ratio in beyond.items() if ratio * TOO_LOW > 1.0}
+        where = "At the upper end of the band the column"
     if beyond:
         times = " and ".join(
             f"{rounded(ratio, 3)} times the {name}" for name, ratio in beyond.items()
         )
         yield (
-            f"The column as a beam takes {times} that the static reaction gives: one degree of "
-            "freedom does not represent this column."
+            f"{where or 'The column'} as a beam takes {times} that the static reaction gives: one "
+            "degree of freedom does not represent this column."
         )
     if calculation.governing.beam_forces is None and not calculation.static_forces.hold:
         yield calculation.static_forces.sentence

@@ -38,7 +38,7 @@ class Codes(Section):
             f"{self.shown(force, 'force')} over {self.shown(window, 'time', given=True)}"
             for window, force in averages.items()
         )
-        band = result.band.quantiles() if result.band.spread else None
+        band = result.reaction_band
         return Figure(
             label="fig-codes",
             lead="The forces of codes beside averages of the contact force, as tests report it; "
@@ -105,7 +105,7 @@ class Codes(Section):
             self.number(result.design_force, "force"),
             self.number(result.struck.impact_height, "length", given=True),
         ]
-        rows = [["This calculation", *own, *self._effects(result.member_forces)]]
+        rows = [["This calculation, static", *own, *self._effects(result.member_forces)]]
         for code, height, forces in result.code_effects:
             mark = "" if code.height else "*"
             cells = [

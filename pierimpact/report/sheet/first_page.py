@@ -1,6 +1,5 @@
 """The first page: what the sheet comes to, how sure it is, and who answers for it."""
 
-from pierimpact.design.beam_band import SIZE as BEAM_BAND_SIZE
 from pierimpact.plots.situation import draw_situation
 from pierimpact.report.document.blocks import (
     Block,
@@ -17,6 +16,7 @@ from pierimpact.report.outcome import (
     DEMANDS,
     METHODS,
     first_results,
+    listed,
     statement,
     verdict,
 )
@@ -84,17 +84,22 @@ class FirstPage(Section):
         )
 
     def _at_upper_end(self) -> str:
-        """Return by how much member forces grow to the upper end of the band, if there is one."""
-        factors = {name: rounded(high, 3) for name, (*_, high) in self.calculation.growth.items()}
-        if not factors:
+        """Return what utilisations at the upper end of the band are of, if there is one."""
+        result = self.calculation
+        if not result.upper_utilisations:
             return ""
-        words = (
-            f"; at 95 % static forces are {factors.pop('static')} times as large, as the reaction"
-        )
-        if factors:
-            grown = " and ".join(f"{factor} ({name})" for name, factor in factors.items())
-            words += f", those of the beam {grown} times, by {BEAM_BAND_SIZE} of the trucks"
-        return words
+        by_method = next(iter(result.sampled_demands.values()))
+        asked = self.case.inputs.member_forces
+        words = f" At 95 %: what 95 % of {len(by_method[asked])} sampled trucks stay below"
+        if asked == "larger":
+            static, beam = (
+                listed(result.upper_utilisations_by(method)) for method in ("static", "beam")
+            )
+            words += (
+                ", of each truck the larger of both methods; by the static reaction alone "
+                f"{static}, by the column as a beam alone {beam}"
+            )
+        return f"{words}."
 
     def utilisations(self) -> Block | None:
         """Return demand, resistance and utilisation by either method; None without resistance."""
@@ -128,7 +133,7 @@ class FirstPage(Section):
         return Table(
             label="tab-utilisation",
             caption="Largest member force over its resistance, by the method that "
-            f"{'governs' if larger else 'the case asks for'}{self._at_upper_end()}.",
+            f"{'governs' if larger else 'the case asks for'}.{self._at_upper_end()}",
             columns=columns(
                 "Check",
                 decimal("Static"),
@@ -149,14 +154,20 @@ class FirstPage(Section):
 
     def contacts(self) -> Block | None:
         """Return which contacts are not made; None where both are."""
-        history = self.calculation.history
+        history, band = self.calculation.history, self.calculation.band
+        share = band.cargo_contact if band.spread else 0.0
+        others = (
+            f" The cargo of {rounded(100.0 * share, 2)} % of the sampled trucks does."
+            if share
+            else ""
+        )
         if history.cargo_contact_time is None and history.engine_contact_time is None:
             return Paragraph(
                 "Neither engine nor cargo reaches the pier: the reaction is the pier’s response to "
-                "crumpling sheet metal alone, and there is no cargo peak."
+                f"crumpling sheet metal alone, and there is no cargo peak.{others}"
             )
         if history.cargo_contact_time is None:
-            return Paragraph("The cargo does not reach the pier: there is no cargo peak.")
+            return Paragraph(f"The cargo does not reach the pier: there is no cargo peak.{others}")
         if history.engine_contact_time is None:
             return Paragraph(
                 "The engine does not reach the pier before the cargo does: the peak before is the "

@@ -33,6 +33,27 @@ class MemberForces(Section):
         yields = {"Ry": "tab-yielding"} if self.yielding() else {}
         return {"V_max": "tab-members", "M_max": "tab-members"} | yields
 
+    def methods(self) -> Block:
+        """Return by which methods they are calculated, and where they belong."""
+        both = self.calculation.governing.beam is not None
+        return Paragraph(
+            (
+                f"By {'two methods' if both else 'one method, which the case asks for'}: the "
+                "reaction as a static force at ",
+                Tex(r"z_\mathrm{n}"),
+                ", with the mass of the column at rest"
+                + (
+                    "; and the same collision with the column as a beam, with flexure, shear and "
+                    "rotary inertia in its natural modes"
+                    if both
+                    else ""
+                )
+                + ". They are those of the collision alone and belong in the accidental "
+                "combination of the code that governs (Extreme Event II of AASHTO LRFD, the "
+                "accidental situation of EN 1990; both from memory).",
+            )
+        )
+
     def table(self) -> Block:
         """Return shear and moment at base, impact and top, and the largest, by both methods."""
         result = self.calculation

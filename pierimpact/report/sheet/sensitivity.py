@@ -35,9 +35,9 @@ class Variations(Section):
         spread = ", the truck’s parameters within their spread" if result.band.spread else ""
         return Figure(
             label="fig-tornado",
-            caption=f"Governing reaction by the full model as one thing changes: speed by {step}, "
-            f"mass by {100.0 * MASS_CHANGE:g} % with other cargo, impact height and pier frequency "
-            f"by about {100.0 * NEAR:g} %{spread}.",
+            caption="Governing reaction by the full model as one thing changes, those that move it "
+            f"most: of speed by {step}, mass by {100.0 * MASS_CHANGE:g} % with other cargo, impact "
+            f"height and pier frequency by about {100.0 * NEAR:g} %{spread}.",
             alt="What moves the governing reaction, the largest change first.",
             svg=draw_tornado(
                 result.sensitivity,
