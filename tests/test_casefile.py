@@ -88,6 +88,8 @@ def test_rectangular_column_of_concrete():
     assert case.column.section.depth == pytest.approx(0.9)
     assert case.column.elastic_modulus == pytest.approx(4700e6 * math.sqrt(28.0))
     assert case.impact_heights == (1.05, 1.35)
+    for written in ("Auto", " AUTO "):
+        assert case_from(values | {"impact_height": written}).impact_heights == (1.05, 1.35)
     assert case.inputs.date == datetime.date(2026, 1, 31)
 
 

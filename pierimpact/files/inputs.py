@@ -71,7 +71,9 @@ def _poisson_ratio(name: str, value: Any) -> float:
 
 
 def _impact_height(name: str, value: Any) -> Any:
-    return value if value == "auto" else _quantity(name, value)
+    if isinstance(value, str) and value.strip().lower() == "auto":
+        return "auto"
+    return _quantity(name, value)
 
 
 def _text(name: str, value: Any) -> str:

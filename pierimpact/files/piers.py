@@ -160,7 +160,7 @@ def _value(column: Column, cell: str) -> object:
         if not _NUMBER.fullmatch(cell):
             raise InputError(f"{column.key} must be a plain number, got {brief(cell)}{hint}")
         return float(cell)
-    if not column.unit or (column.key == "impact_height" and cell == "auto"):
+    if not column.unit or (column.key == "impact_height" and cell.lower() == "auto"):
         return cell
     if not _NUMBER.fullmatch(cell):
         raise InputError(
