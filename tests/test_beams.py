@@ -108,7 +108,7 @@ def test_a_band_is_that_of_trucks_one_by_one():
         for number in range(64)
         for own in [band.sampled(number)]
     ]
-    found = beam_band(band, BEAM, 1.5 * end)
+    found = beam_band(band.collision.parameters, band.parameters, BEAM, end)
     for name, nominal, column in (("shear", shear, 0), ("moment", moment, 1)):
         of_each = np.array(each)[:, column]
         assert getattr(found.nominal, name) == pytest.approx(nominal, rel=0.01)
@@ -118,7 +118,7 @@ def test_a_band_is_that_of_trucks_one_by_one():
 
 def test_trucks_without_spread_are_the_nominal_one():
     band = reaction_band(TRUCK, BEAM, SPEED, spread={}, size=8)
-    found = beam_band(band, BEAM, 0.4)
+    found = beam_band(band.collision.parameters, band.parameters, BEAM, 0.3)
     assert len(found.sampled.shear) == 8
     for name in ("shear", "moment"):
         assert found.ratios(name) == pytest.approx(np.ones(8), rel=1e-12)
@@ -130,7 +130,7 @@ def test_under_one_mode_member_forces_go_with_the_reaction():
     mode = one_mode(pier)
     beam = dataclasses.replace(mode, shear=np.ones((1, 1)), moment=np.full((1, 1), 2.0))
     band = reaction_band(TRUCK, pier, SPEED, size=64)
-    found = beam_band(band, beam, 0.5)
+    found = beam_band(band.collision.parameters, band.parameters, beam, 0.3)
     ratios = found.sampled.moment / found.sampled.shear
     assert ratios == pytest.approx(np.full(64, 2.0), rel=1e-12)
     assert found.sampled.shear / found.nominal.shear == pytest.approx(

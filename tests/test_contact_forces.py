@@ -5,15 +5,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from generated_columns import round_column
 
 from pierimpact import EquivalentPier, load_truck, peak_reactions, reaction_band, simulate
 from pierimpact.checks import InputError
 from pierimpact.collision.averages import largest_average_force
 from pierimpact.collision.contact_forces import contact_forces
+from pierimpact.collision.groups import single
 from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.design import domain
 from pierimpact.design.band import spreads_of
-from pierimpact.design.quick_band import quick_band
+from pierimpact.design.quick_band import SIZE, quick_band, sampled_trucks
+from pierimpact.design.study import full_model, predictions
 from pierimpact.pier.equivalent import damping_coefficient
 
 COUNT = 60
@@ -105,13 +108,43 @@ def test_a_quick_band_is_about_that_of_the_full_model(collisions):
     trucks, *given = (values[:few] for values in collisions)
     speed = np.full(few, 22.2)
     trucks = [load_truck("single-unit-8t").loaded_to(own.mass) for own in trucks]
-    reactions = peak_reactions(trucks, *given[:3], speed).governing
     ((_, parameters),) = parameter_chunks(trucks, *given[:3], speed)[1]
-    low, high = quick_band(parameters, reactions, spreads_of(trucks[0]))
+    low, high = quick_band(parameters, spreads_of(trucks[0]))
     for i, truck in enumerate(trucks):
         pier = EquivalentPier(mass=given[0][i], stiffness=given[1][i], damping_ratio=given[2][i])
         expected = reaction_band(truck, pier, 22.2, size=256).quantiles()
         assert [low[i], high[i]] == pytest.approx(expected[[0, 2]], rel=0.12)
     # Of a truck that is known exactly there is no band but its reaction.
     assert Collision(trucks[0], pier, 22.2).truck.spread
-    assert np.array_equal(quick_band(parameters, reactions, {}), [reactions, reactions])
+    reactions = predictions(parameters, "long").governing
+    assert np.array_equal(quick_band(parameters, {}), [reactions, reactions])
+
+
+@pytest.mark.parametrize("name", ["single-unit-8t", "tractor-trailer-36t"])
+def test_a_quick_band_holds_where_the_closed_spectra_do_not(name):
+    # Among them trucks of which the engine or the cargo arrives in a part of the spread only.
+    random, truck = np.random.default_rng(8), load_truck(name)
+    columns = [
+        round_column(random.uniform(4.0, 9.0), random.uniform(0.6, 1.6), "fixed", top)
+        for top in ("pinned", "fixed", "free") * 12
+    ]
+    piers = [column.struck_at(1.2).equivalent(0.05) for column in columns]
+    mass, stiffness = np.array([(pier.mass, pier.stiffness) for pier in piers]).T
+    speed = random.uniform(30.0, 110.0, len(piers)) / 3.6
+    spreads = spreads_of(truck)
+    ((_, parameters),) = parameter_chunks(truck, mass, stiffness, 0.05, speed)[1]
+    found = quick_band(parameters, spreads)
+    reactions = full_model(sampled_trucks(parameters, spreads)).governing.reshape(-1, SIZE)
+    low, high = found / np.quantile(reactions, (0.05, 0.95), axis=1)
+    assert np.all((low > 0.92) & (low < 1.3))
+    assert np.all((high > 0.94) & (high < 1.17))
+    assert np.quantile(np.abs(found / np.quantile(reactions, (0.05, 0.95), axis=1) - 1), 0.9) < 0.08
+
+
+def test_many_collisions_are_inside_the_studied_domain_as_one_is():
+    parameters = domain.sample(200, seed=4)
+    assert np.all(domain.inside(parameters))
+    moved = parameters._replace(speed=parameters.speed * np.linspace(0.3, 2.0, 200))
+    alone = [not domain.outside(single(moved, number)) for number in range(200)]
+    assert domain.inside(moved).tolist() == alone
+    assert 20 < sum(alone) < 180

@@ -121,6 +121,35 @@ def test_the_command_writes_a_table_that_the_portfolio_reads(tmp_path, rules, ca
     assert "the inventory does not hold it: column_shape, column_diameter" in said.err
 
 
+def test_lines_that_are_no_bridges_are_counted(tmp_path, rules):
+    path = inventory(tmp_path / "nbi.txt", [{"structure": f"B{i}"} for i in range(9)])
+    lines = path.read_text("latin-1").splitlines()
+    lines[3] += ",more"
+    lines[5] = lines[5].rpartition(",")[0]
+    lines.insert(6, "")
+    lines[8] = lines[8].replace("'x, y'", "'x, y")  # takes the next one, too
+    path.write_text("\n".join(lines) + "\n", encoding="latin-1")
+    found = piers_of(path, read_rules(rules))
+    assert [row["id"] for row in rows(found.piers)] == [f"26-B{i}" for i in (0, 1, 3, 5, 8)]
+    reason = "more or fewer cells than the heading, the first in line 4"
+    assert found.left_out == {reason: 4}
+    assert found.count + sum(found.left_out.values()) == 9
+
+
+@pytest.mark.parametrize("quoted", [1, 5])
+def test_quotes_are_told_from_more_than_the_first_lines(tmp_path, rules, quoted):
+    bridges = [{"structure": f"B{i}"} for i in range(7)]
+    path = inventory(tmp_path / "nbi.txt", bridges)
+    lines = path.read_text("latin-1").splitlines()
+    for number in range(1, len(lines)):
+        if number != quoted:
+            lines[number] = lines[number].replace("'x, y'", "O'BRIEN ROAD")
+    path.write_text("\n".join(lines) + "\n", encoding="latin-1")
+    found = piers_of(path, read_rules(rules))
+    assert found.count == 7
+    assert not found.left_out
+
+
 def test_tables_that_somebody_changed_are_kept(tmp_path, rules, capsys):
     file, output = inventory(tmp_path / "nbi.txt", [{}]), tmp_path / "p.csv"
     command = ["inventory", str(file), "--rules", str(rules), "--output", str(output)]

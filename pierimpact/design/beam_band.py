@@ -7,10 +7,13 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.beams import LargestMemberForces, largest_member_forces
 from pierimpact.collision.groups import join, repeat, select, single
-from pierimpact.design.band import ReactionBand
+from pierimpact.collision.parameters import Parameters
 from pierimpact.pier.beam import BeamPier
 
 Array: TypeAlias = NDArray[np.float64]
+
+# Numerical: time that all trucks are given, over that of the nominal one.
+LONGER = 1.5
 
 
 class BeamBand(NamedTuple):
@@ -25,17 +28,21 @@ class BeamBand(NamedTuple):
         return found
 
 
-def beam_band(band: ReactionBand, beam: BeamPier, duration: float) -> BeamBand:
-    """Return the member forces of a beam under the sampled trucks of a band.
+def beam_band(
+    nominal: Parameters, sampled: Parameters, beam: BeamPier, duration: float
+) -> BeamBand:
+    """Return the member forces of a beam under many trucks.
 
     Parameters
     ----------
-    band : ReactionBand
-        Trucks and speeds.
+    nominal : Parameters
+        The collision with every parameter at its value, floats.
+    sampled : Parameters
+        Collisions of the sampled trucks, as in `ReactionBand`, arrays of shape (size,).
     beam : BeamPier
         The pier that they strike.
     duration : float
-        Time to follow them at most, as in `largest_member_forces` [s].
+        Time that the nominal collision with it takes [s].
 
     Examples
     --------
@@ -47,10 +54,10 @@ def beam_band(band: ReactionBand, beam: BeamPier, duration: float) -> BeamBand:
     ... )
     >>> beam = column.beam(impact_height=1.2)
     >>> band = reaction_band(load_truck("single-unit-8t"), beam, speed=22.2, size=64)
-    >>> ratios = beam_band(band, beam, duration=0.3).ratios("moment")
-    >>> np.quantile(ratios, (0.05, 0.95)).round(2)
+    >>> found = beam_band(band.collision.parameters, band.parameters, beam, duration=0.2)
+    >>> np.quantile(found.ratios("moment"), (0.05, 0.95)).round(2)
     array([0.83, 1.36])
     """
-    nominal = repeat(band.collision.parameters, 1)
-    found = largest_member_forces(join(nominal, band.parameters), beam, duration)
+    trucks = join(repeat(nominal, 1), sampled)
+    found = largest_member_forces(trucks, beam, LONGER * duration)
     return BeamBand(single(found, 0), select(found, slice(1, None)))

@@ -13,6 +13,7 @@ longitudes are west is second-hand.
 
 import csv
 import io
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -51,6 +52,8 @@ HELD = (
     *("right_clearance [m]", "left_clearance [m]"),
 )
 _DIGITS = {"latitude": 8, "longitude": 9}
+# Whether cells are quoted by apostrophes is told from so many characters: this project's choice.
+_QUOTED, _SAMPLE = re.compile(r"(?:^|,)'[^'\n]*'(?=[,\r\n])", re.MULTILINE), 1_000_000
 
 
 class Rule(NamedTuple):
@@ -193,7 +196,7 @@ def piers_of(path: Path, rules: Rules) -> Piers:
     left_out: Counter[str] = Counter()
     seen: set[str] = set()
     try:
-        for bridge in _bridges(path, rules.fields):
+        for bridge in _bridges(path, rules.fields, left_out):
             try:
                 name = f"{_code(bridge['state'])}-{bridge['structure']}"
                 values = _values(bridge, rules)
@@ -222,19 +225,27 @@ def piers_of(path: Path, rules: Rules) -> Piers:
     )
 
 
-def _bridges(path: Path, fields: Mapping[str, str]) -> Iterator[dict[str, str]]:
-    """Yield what is taken of each bridge, as text."""
+def _bridges(
+    path: Path, fields: Mapping[str, str], left_out: Counter[str]
+) -> Iterator[dict[str, str]]:
+    """Yield what is taken of each bridge, as text; count the lines that are no bridges."""
     require_regular(path)
     with path.open(encoding="latin-1", newline="") as file:
-        first = file.readline()
-        quote = "'" if "'" in first + file.readline() else '"'
+        quote = "'" if _QUOTED.search(file.read(_SAMPLE)) else '"'
         file.seek(0)
         rows = csv.reader(file, quotechar=quote)
         heading = [cell.strip().removeprefix("ï»¿") for cell in next(rows, [])]
         places = {what: _place(what, heading, fields.get(what)) for what in ITEMS}
+        reason, before = "", rows.line_num
         for row in rows:
+            lines, first, before = rows.line_num - before, before + 1, rows.line_num
             if len(row) == len(heading):
                 yield {what: row[place].strip() for what, place in places.items()}
+            elif row:  # a quote that is not closed takes the lines after it as well
+                reason = (
+                    reason or f"more or fewer cells than the heading, the first in line {first}"
+                )
+                left_out[reason] += lines
 
 
 def _place(what: str, heading: list[str], named: str | None) -> int:

@@ -155,8 +155,8 @@ def _remarks(portfolio: Portfolio) -> Iterator[str]:
         yield f"The table below has the worst {LISTED:,} piers; results.csv has all."
     if np.isfinite(numbers["band_low"]).any():
         yield (
-            "Bands are by the closed spectra, some per cent off those of a report; a report has "
-            "the collisions behind them."
+            "Bands are of 128 sampled trucks a pier, by the closed spectra where these hold, some "
+            "per cent off those of a report, which has a thousand by the full model."
         )
 
 

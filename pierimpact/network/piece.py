@@ -14,13 +14,16 @@ from numpy.typing import NDArray
 
 from pierimpact.checks import InputError
 from pierimpact.collision.contact_forces import contact_forces
+from pierimpact.collision.groups import repeat
 from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.collision.propagation import UnfinishedWarning
 from pierimpact.collision.simulate import simulate
-from pierimpact.design.band import spreads_of
+from pierimpact.design.band import LEVELS, spreads_of
+from pierimpact.design.beam_band import beam_band
 from pierimpact.design.codes import aashto_lrfd
-from pierimpact.design.quick_band import quick_band
+from pierimpact.design.quick_band import quick_band, sampled_trucks
 from pierimpact.design.static_forces import StaticForcesInCollision
+from pierimpact.design.study import full_model
 from pierimpact.files.case import column_of, impact_heights, loaded
 from pierimpact.files.inputs import Inputs, read_inputs
 from pierimpact.files.piers import COLUMNS, Column, Pier, Row, pier_of
@@ -40,6 +43,7 @@ NUMBERS = (
     *("static_shear", "static_moment"),
     # Under the larger of reaction and contact force, and whether the reaction alone will do.
     *("safe_shear", "safe_moment", "static_holds"),
+    *("shear_growth", "moment_growth"),  # of the static ones to the band's upper end
     *("shear_resistance", "moment_resistance"),
 )
 
@@ -69,10 +73,24 @@ class Found(NamedTuple):
     rejects: list[Reject]
 
 
-class BeamFound(NamedTuple):
-    """Largest shear [N] and moment [N m] of columns as beams, by row."""
+class BeamForces(NamedTuple):
+    """Largest member forces of a column as a beam [N, N m].
 
-    forces: list[tuple[int, float, float]]
+    What 95 % of the trucks stay below is by the larger of beam and static reaction, unless the row
+    asks for the beam; nan where the truck has no spread.
+    """
+
+    row: int
+    shear: float
+    moment: float
+    shear_high: float
+    moment_high: float
+
+
+class BeamFound(NamedTuple):
+    """Member forces of columns as beams, and the rows without."""
+
+    forces: list[BeamForces]
     rejects: list[Reject]
 
 
@@ -127,21 +145,35 @@ def calculate_beams(task: Task) -> BeamFound:
     read, rejects = _read_rows(task)
     forces = []
     for own in read:
-        largest = np.zeros(2)
         try:
-            for struck in own.struck:
-                ratio = own.inputs.damping_ratio
-                beam = struck.column.beam(struck.impact_height, ratio)
-                members = simulate(own.truck, beam, own.inputs.speed).member_forces
-                assert members is not None
-                extremes = members.shear_extremes, members.moment_extremes
-                found = [abs(extreme.governing.value) for extreme in extremes]
-                largest = np.maximum(largest, found)
+            nominal, *sampled = np.max([_by_beam(own, struck) for struck in own.struck], axis=0)
         except (InputError, RuntimeError) as error:
             rejects.append(Reject(own.row, own.pier.name, "", f"as a beam: {error}"))
         else:
-            forces.append((own.row, float(largest[0]), float(largest[1])))
+            high = np.quantile(sampled, LEVELS[-1], axis=0) if sampled else [math.nan, math.nan]
+            forces.append(BeamForces(own.row, *map(float, (*nominal, *high))))
     return BeamFound(forces, rejects)
+
+
+def _by_beam(own: _Read, struck: StruckColumn) -> Array:
+    """Return largest shear and moment of the nominal truck, then of sampled ones, shape (n, 2)."""
+    beam = struck.column.beam(struck.impact_height, own.inputs.damping_ratio)
+    history = simulate(own.truck, beam, own.inputs.speed)
+    members = history.member_forces
+    assert members is not None
+    extremes = members.shear_extremes, members.moment_extremes
+    nominal = np.array([abs(own.governing.value) for own in extremes])
+    spreads, parameters = spreads_of(own.truck), history.collision.parameters
+    if not spreads:
+        return nominal[None]
+    trucks = sampled_trucks(repeat(parameters, 1), spreads)
+    band = beam_band(parameters, trucks, beam, float(members.time[-1]))
+    sampled = nominal * np.column_stack([band.ratios(name) for name in ("shear", "moment")])
+    if own.inputs.member_forces != "beam":
+        unit = struck.member_forces(1.0)
+        per_reaction = np.abs([unit.largest_shear.value, unit.largest_moment.value])
+        sampled = np.maximum(sampled, np.outer(full_model(trucks).governing, per_reaction))
+    return np.vstack((nominal, sampled))
 
 
 def _read_rows(task: Task) -> tuple[list[_Read], list[Reject]]:
@@ -195,7 +227,7 @@ def _collide(read: Sequence[_Read]) -> _Impacts:
         if spreads:
             chosen = [trucks[i] for i in alike]
             for part, parameters in parameter_chunks(chosen, *given[:, alike])[1]:
-                band[:, alike[part]] = quick_band(parameters, reaction[alike[part]], spreads)
+                band[:, alike[part]] = quick_band(parameters, spreads)
     return _Impacts(peaks.engine, peaks.cargo, reaction, forces.largest, forces.average, band)
 
 
@@ -212,13 +244,15 @@ def _numbers(own: _Read, impacts: _Impacts, mine: range) -> dict[str, float]:
     best = max(mine, key=lambda i: impacts.reaction[i])
     struck = own.struck[best - mine.start]
     inputs, equivalent = own.inputs, struck.equivalent(own.inputs.damping_ratio)
-    # The average is over the impact that governs, member forces are over all of them.
-    static, safe, holds = np.zeros(2), np.zeros(2), True
+    # The average is over the impact that governs, bands and member forces are over all of them.
+    low, high = impacts.band[:, mine].max(axis=1)
+    static, safe, grown, holds = np.zeros(2), np.zeros(2), np.zeros(2), True
     for place, impact in zip(mine, own.struck, strict=True):
         reaction, contact = impacts.reaction[place], impacts.contact[place]
         unit = impact.member_forces(1.0)
         largest = np.abs([unit.largest_shear.value, unit.largest_moment.value])
         static = np.maximum(static, reaction * largest)
+        grown = np.maximum(grown, impacts.band[1, place] * largest)
         safe = np.maximum(safe, max(reaction, contact) * largest)
         holds &= StaticForcesInCollision(impact.static_forces, reaction, contact).hold
     average = impacts.average[best]
@@ -236,8 +270,8 @@ def _numbers(own: _Read, impacts: _Impacts, mine: range) -> dict[str, float]:
         "engine_peak": impacts.engine[best],
         "cargo_peak": impacts.cargo[best],
         "design_reaction": impacts.reaction[best],
-        "band_low": impacts.band[0, best],
-        "band_high": impacts.band[1, best],
+        "band_low": low,
+        "band_high": high,
         "contact_force": impacts.contact[best],
         "average_25ms": average,
         "code_ratio": average / aashto_lrfd().along.value,
@@ -246,6 +280,8 @@ def _numbers(own: _Read, impacts: _Impacts, mine: range) -> dict[str, float]:
         "safe_shear": safe[0],
         "safe_moment": safe[1],
         "static_holds": holds,
+        "shear_growth": grown[0] / static[0],
+        "moment_growth": grown[1] / static[1],
         "shear_resistance": inputs.shear_resistance or math.nan,
         "moment_resistance": inputs.moment_resistance or math.nan,
     }

@@ -25,6 +25,7 @@ from pierimpact.files.write import write_files
 from pierimpact.network.piece import (
     NUMBERS,
     WORDS,
+    BeamForces,
     BeamFound,
     Found,
     Reject,
@@ -113,7 +114,7 @@ def calculate_portfolio(
             )
             if asked in ("larger", "beam") or (beams == "rule" and not asked and not holds)
         ]
-        forces: list[tuple[int, float, float]] = []
+        forces: list[BeamForces] = []
         if wanted:
             by_beam = work.beams(wanted, progress("beams", len(wanted)))
             forces = by_beam.forces
@@ -198,7 +199,7 @@ class _Work(NamedTuple):
         whole = BeamFound([], [])
         pieces = _chosen(self.table, set(wanted))
         for forces, rejects in self._each("beams", calculate_beams, pieces, progress):
-            whole.forces.extend((int(row), shear, moment) for row, shear, moment in forces)
+            whole.forces.extend(BeamForces(int(row), *own) for row, *own in forces)
             whole.rejects.extend(Reject(*reject) for reject in rejects)
         return whole
 
@@ -253,21 +254,19 @@ def _chosen(table: PierTable, wanted: set[int]) -> Iterator[list[Row]]:
         yield chosen
 
 
-def _portfolio(
-    table: PierTable, found: Found, forces: Iterable[tuple[int, float, float]]
-) -> Portfolio:
+def _portfolio(table: PierTable, found: Found, forces: Iterable[BeamForces]) -> Portfolio:
     """Return the portfolio of what was found: member forces that govern, utilisations, ranks."""
     numbers = {name: np.array(found.numbers.pop(name), dtype=float) for name in NUMBERS}
     words = {name: np.array(found.words.pop(name), dtype=str) for name in WORDS}
     size = len(numbers["row"])
-    beam = np.full((2, size), math.nan)
+    beam = np.full((4, size), math.nan)
     place = {int(row): i for i, row in enumerate(numbers["row"])}
-    for row, shear, moment in forces:
-        beam[:, place[row]] = shear, moment
+    for row, *own in forces:
+        beam[:, place[row]] = own
     asked, holds = words.pop("asked"), numbers.pop("static_holds") > 0.0
     words["static_forces"] = np.where(holds, "hold", "may be too low")
-    share = numbers["band_high"] / numbers["design_reaction"]
-    for which, by_beam in zip(("shear", "moment"), beam, strict=True):
+    high: dict[str, Array] = {}
+    for which, by_beam, high_by_beam in zip(("shear", "moment"), beam[:2], beam[2:], strict=True):
         static, safe = numbers[f"static_{which}"], numbers.pop(f"safe_{which}")
         known = np.isfinite(by_beam)
         careful = ~known & ~holds & (asked != "static")
@@ -278,8 +277,11 @@ def _portfolio(
         words[f"{which}_method"] = np.where(by_it, BEAM, np.where(careful, CONTACT, STATIC))
         resistance = numbers.pop(f"{which}_resistance")
         numbers[f"utilisation_{which}"] = numbers[f"largest_{which}"] / resistance
+        growth = numbers.pop(f"{which}_growth")
+        at_upper = np.where(known, high_by_beam, growth * numbers[f"largest_{which}"])
+        high[which] = at_upper / resistance
     numbers["utilisation"] = np.fmax(numbers["utilisation_shear"], numbers["utilisation_moment"])
-    numbers["utilisation_high"] = numbers["utilisation"] * share
+    numbers["utilisation_high"] = np.fmax(high["shear"], high["moment"])
     lost = {reject.row for reject in found.rejects}
     kept = np.array([row not in lost for row in numbers["row"]], dtype=bool)
     worst = np.lexsort(

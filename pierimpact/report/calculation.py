@@ -107,8 +107,8 @@ class Impact:
         """Return the member forces of the beam under the trucks of a band."""
         assert self.beam is not None  # nobody asks for it without a beam
         assert self.beam_forces is not None
-        # Numerical: trucks that come later than this one have the time to.
-        return beam_band(band, self.beam, 1.5 * float(self.beam_forces.time[-1]))
+        duration = float(self.beam_forces.time[-1])
+        return beam_band(band.collision.parameters, band.parameters, self.beam, duration)
 
     @property
     def demands(self) -> dict[str, Demand]:
