@@ -355,3 +355,13 @@ def test_shear_and_moment_are_those_of_finite_elements(struck, on):
         # From instant to instant, but for the fronts of waves, which pass in no time.
         apart = np.stack([in_between(values[:, corner]) for corner in corners], axis=1) - expected
         assert np.quantile(np.abs(apart), 0.99) < 0.01 * largest
+
+
+def test_a_long_duration_is_no_collision_without_end(monkeypatch):
+    # Far more blocks of steps than the limit, in which nothing changes.
+    monkeypatch.setattr(pierimpact.collision.beam, "STEPS", 60)
+    history = simulate(TRUCK, round_column(5.0, 0.914).beam(1.2, 0.0), 22.2, duration=2.0)
+    assert history.end.time >= 2.0
+    monkeypatch.setattr(pierimpact.collision.beam, "STEPS", 2)
+    with pytest.raises(RuntimeError, match="did not come to an end"):
+        simulate(TRUCK, round_column(5.0, 0.914).beam(1.2, 0.0), 22.2)

@@ -179,8 +179,7 @@ def test_an_interrupt_at_the_start_is_one_line(delay):
     time.sleep(delay)
     process.send_signal(signal.SIGINT)
     _, err = process.communicate()
-    assert process.returncode == 130
-    assert err == "pierimpact: interrupted, nothing written\n"
+    assert (process.returncode, err) == (130, "pierimpact: interrupted, nothing written\n")
 
 
 def test_output_that_nobody_reads_is_no_failure_to_tell():

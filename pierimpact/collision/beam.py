@@ -40,7 +40,7 @@ from pierimpact.pier.beam import BeamPier
 Array: TypeAlias = NDArray[np.float64]
 
 # Numerical settings.
-STEPS = 10_000  # limit
+STEPS = 10_000  # limit of blocks of steps that change a regime, or come after all was over
 DOUBLINGS = 4  # of the number of steps taken together, from one on
 FEWEST_MOVING = 8  # shapes that are always followed
 STILL = 1e-26  # share of the energy below which the vibration of a shape has died out
@@ -227,15 +227,19 @@ class BeamPropagation:
         The truck has left, or can raise no peak of the reaction and bring no first contact; and
         the beam has vibrated for a whole period of its first mode since the last change.
         """
-        parameters, omega = self.parameters, self.beam.circular_frequencies
+        omega = self.beam.circular_frequencies
         energy = 0.5 * float(np.sum((omega * self.q) ** 2 + self.p**2))
-        decided, left = prospects(parameters, self.state, energy, FLOATS)
+        decided, left = prospects(self.parameters, self.state, energy, FLOATS)
+        return bool((decided or left) and self.has_vibrated)
+
+    @property
+    def has_vibrated(self) -> bool:
+        """Whether the beam has vibrated for a period of its first mode since the last change."""
         # A body that sticks to the beam slows it down, by Dunkerley's bound.
-        square = omega[0] ** -2
-        if parameters.on_pier:
-            square += parameters.body.mass / parameters.pier_stiffness
-        period = 2.0 * math.pi * math.sqrt(square)
-        return bool((decided or left) and self.state.time > self.state.last_change + period)
+        square = self.beam.circular_frequencies[0] ** -2
+        if self.parameters.on_pier:
+            square += self.parameters.body.mass / self.parameters.pier_stiffness
+        return bool(self.state.time > self.state.last_change + 2.0 * math.pi * math.sqrt(square))
 
 
 def propagate_beam(collision: Collision, beam: BeamPier, duration: float, record: Record) -> State:
@@ -261,9 +265,13 @@ def propagate_beam(collision: Collision, beam: BeamPier, duration: float, record
     RuntimeError
         When the collision does not come to an end.
     """
-    propagation = BeamPropagation(collision, beam)
-    for _ in range(STEPS):
+    propagation, blocks = BeamPropagation(collision, beam), 0
+    while blocks < STEPS:
+        before = propagation.state.last_change
         propagation.advance(record)
-        if propagation.state.time >= duration and propagation.finished():
+        late = propagation.state.time >= duration
+        if late and propagation.finished():
             return propagation.state
+        changed = propagation.state.last_change != before
+        blocks += changed or (late and propagation.has_vibrated)
     raise RuntimeError("the collision did not come to an end")

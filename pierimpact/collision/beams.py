@@ -42,8 +42,11 @@ def largest_member_forces(
 ) -> LargestMemberForces:
     """Return the largest shear and moment of a beam in each of many collisions.
 
-    They are those of `simulate` to some tenths of a per cent, and to 3 % where its highest shapes
-    matter; a shear by a blow of less than a millisecond, which modes beyond 1 kHz make, is smaller.
+    Of concrete columns with 2 % of damping or more they are those of `simulate` to some tenths of a
+    per cent, and of nearly all to 3 %. Light steel posts bounce on the truck, and what has no
+    damping never forgets a blow: their shears were up to 44 % more and 12 % less in 300 random
+    collisions, their moments within 10 %. The shear of a blow of less than a millisecond, which
+    modes beyond 1 kHz make, is smaller.
 
     Parameters
     ----------
