@@ -227,7 +227,7 @@ def _collide(read: Sequence[_Read]) -> _Impacts:
         if spreads:
             chosen = [trucks[i] for i in alike]
             for part, parameters in parameter_chunks(chosen, *given[:, alike])[1]:
-                band[:, alike[part]] = quick_band(parameters, spreads)
+                band[:, alike[part]] = quick_band(parameters, reaction[alike[part]], spreads)
     return _Impacts(peaks.engine, peaks.cargo, reaction, forces.largest, forces.average, band)
 
 
