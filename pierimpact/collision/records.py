@@ -1,7 +1,7 @@
 """Force records, measured or from finite elements, and the same forces by the model."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,8 +67,8 @@ class Record:
         zero after first touch, or another value is out of range.
     """
 
-    time: Array
-    force: Array
+    time: Array = field(repr=False)
+    force: Array = field(repr=False)
     speed: float
     pier: EquivalentPier | BeamPier | None = None
     quantity: str = "contact force"
