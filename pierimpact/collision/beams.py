@@ -1,11 +1,10 @@
 """The largest member forces of many collisions with one beam, by small equal steps.
 
-`beam` follows one collision exactly, which takes it a tenth of a second. A band asks for hundreds,
-to some per cent of their differences: here they advance side by side, all by the same step. The
-contact forces at its start hold for the step, by which the bodies move on (leapfrog); the shapes
-vibrate exactly, and stand exactly under a force that stays. The crush law needs no events: the
-force of a spring is that of its envelope at the largest crush so far, less what it has unloaded.
-Derived here.
+`beam` follows one collision exactly, which takes it a tenth of a second. A band asks for a thousand
+and for no more than a per cent: here they advance side by side, all by the same step. The contact
+forces at its start hold for the step, by which the bodies move on (leapfrog); the shapes vibrate
+exactly, and stand exactly under a force that stays. The crush law needs no events: the force of a
+spring is that of its envelope at the largest crush so far, less what it has unloaded. Derived here.
 """
 
 import math

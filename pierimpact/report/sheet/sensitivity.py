@@ -101,10 +101,14 @@ class Sensitivities(Section):
             for status in [own.spread_status]
             if own.name in band.spread
         )
+        height = self.shown(self.calculation.struck.impact_height, "length", given=True)
+        at_one = (
+            f" at {height}, the height that governs" if len(self.calculation.impacts) > 1 else ""
+        )
         return Figure(
             label="fig-band",
-            caption="Reactions by the full model as the truck’s parameters vary within their "
-            "spread: 5 to 95 % of 1000 sampled trucks, and the governing reaction with one "
+            caption=f"Reactions by the full model{at_one} as the truck’s parameters vary within "
+            "their spread: 5 to 95 % of 1000 sampled trucks, and the governing reaction with one "
             "parameter at a time at either end; with its share of the variance, alone and with "
             "others, so that the shares may add up to more than 100 %. Source of the spreads: "
             f"{'; '.join(sources)}.",
