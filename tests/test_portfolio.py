@@ -115,9 +115,13 @@ def test_a_row_comes_to_what_a_report_of_it_does(table):
             for impact in calculation.impacts
         ]
         assert own["static_holds"] == all(holds)
-        if row.cells[0] in ("P1", "P4"):
-            low, _, high = calculation.band.quantiles()
-            assert [own["band_low"], own["band_high"]] == pytest.approx([low, high], rel=0.12)
+        if calculation.reaction_band:
+            low, _, high = calculation.reaction_band
+            assert [own["band_low"], own["band_high"]] == pytest.approx([low, high], rel=0.1)
+            for which, (_, high) in calculation.demand_bands_by("static").items():
+                assert own[f"high_{which}"] == pytest.approx(high, rel=0.1)
+        else:
+            assert math.isnan(own["band_high"])
 
 
 def test_demands_utilisations_and_ranks(table, tmp_path, here):

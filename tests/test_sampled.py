@@ -1,5 +1,7 @@
 """What the sampled trucks do to a case: of each truck the larger of heights and methods."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -8,6 +10,7 @@ from hypothesis import strategies as st
 from pierimpact.files.case import case_from, read_case_file
 from pierimpact.report.calculation import calculate
 from pierimpact.report.outcome import statement
+from pierimpact.report.warnings import warnings_of
 from pierimpact.resources import shipped
 
 EXAMPLE = read_case_file(shipped("notebooks") / "tti-column.yaml").values
@@ -68,6 +71,29 @@ def test_of_both_methods_each_truck_counts_with_the_larger():
         assert np.array_equal(by_method["larger"], larger)
         # The nominal truck's ratio of the methods is not every truck's.
         assert np.ptp(by_method["static"] / by_method["beam"]) > 0.1
+
+
+def test_a_truck_whose_collision_is_unfinished_is_left_out():
+    result = calculated(EXAMPLE)
+    before, demands = result.reaction_band, result.demand_bands
+    reactions = result.band.reactions
+    lost = reactions._replace(governing=np.where(np.arange(1000) == 7, np.nan, reactions.governing))
+    again = calculated(EXAMPLE)
+    again.__dict__["band"] = dataclasses.replace(again.band, reactions=lost)
+    assert again.reaction_band == pytest.approx(before, rel=5e-3)
+    for name, ends in again.demand_bands.items():
+        assert ends == pytest.approx(demands[name], rel=5e-3)
+
+
+def test_static_forces_are_not_vouched_for_where_the_cargo_arrives_in_part_of_the_spread():
+    case = CANTILEVER | {"impact_height": "1.2 m", "speed": "50 km/h"}
+    result = calculated(case, column_diameter="0.9 m", column_height="9 m", member_forces="static")
+    assert result.history.cargo_contact_time is None
+    said = " ".join(warnings_of(result))
+    share = f"{100.0 * result.band.cargo_contact:.0f} % of the sampled trucks reaches the pier"
+    assert 0.05 < result.band.cargo_contact < 1.0
+    assert share in said
+    assert "sampled trucks" not in " ".join(warnings_of(calculated(case, speed="100 km/h")))
 
 
 def test_static_forces_go_with_the_reaction():

@@ -267,11 +267,10 @@ def propagate_beam(collision: Collision, beam: BeamPier, duration: float, record
     """
     propagation, blocks = BeamPropagation(collision, beam), 0
     while blocks < STEPS:
-        before = propagation.state.last_change
         propagation.advance(record)
         late = propagation.state.time >= duration
         if late and propagation.finished():
             return propagation.state
-        changed = propagation.state.last_change != before
+        changed = propagation.state.last_change == propagation.state.time
         blocks += changed or (late and propagation.has_vibrated)
     raise RuntimeError("the collision did not come to an end")

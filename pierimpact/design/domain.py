@@ -17,10 +17,6 @@ from pierimpact.symbols import SYMBOLS
 Array = NDArray[np.float64]
 
 
-# Numerical: a bound met but for round-off is met.
-_LESS, _MORE = 1.0 - 1e-9, 1.0 + 1e-9
-
-
 class Range(NamedTuple):
     """From where to where a value was varied, in a unit of the given size in SI."""
 
@@ -74,21 +70,14 @@ class Outside(NamedTuple):
     high: float
 
 
-def inside(parameters: Parameters) -> NDArray[np.bool_]:
-    """Return which of many collisions have all values in the studied domain, shape (n,)."""
-    found = values(parameters)
-    ends = [(found[name], *bounds(name)) for name in DOMAIN]
-    kept = [(low * _LESS <= own) & (own <= high * _MORE) for own, low, high in ends]
-    return np.asarray(np.all(kept, axis=0))
-
-
 def outside(parameters: Parameters) -> tuple[Outside, ...]:
     """Return the values of one collision that are outside the studied domain."""
     found = values(parameters)
+    # A bound met but for round-off is met.
     return tuple(
         Outside(name, float(found[name]), low, high)
         for name, (low, high) in ((name, bounds(name)) for name in DOMAIN)
-        if not low * _LESS <= found[name] <= high * _MORE
+        if not low * (1.0 - 1e-9) <= found[name] <= high * (1.0 + 1e-9)
     )
 
 

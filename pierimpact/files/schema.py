@@ -35,7 +35,12 @@ _OWN: dict[str, Schema] = {
         "pattern": "^all$",
     },
     "assumed": _OF_PHYSICAL_KEYS,
-    "impact_height": {"anyOf": [{"const": "auto"}, {"$ref": "#/$defs/length"}]},
+    "impact_height": {
+        "anyOf": [
+            {"type": "string", "pattern": r"^\s*[Aa][Uu][Tt][Oo]\s*$"},
+            {"$ref": "#/$defs/length"},
+        ]
+    },
     "sources": _OF_PHYSICAL_KEYS,
     "truck": {"anyOf": [{"enum": truck_names()}, {"pattern": r"\.toml$"}]},
 }

@@ -21,7 +21,7 @@ from pierimpact.collision.simulate import simulate
 from pierimpact.design.band import LEVELS, spreads_of
 from pierimpact.design.beam_band import beam_band
 from pierimpact.design.codes import aashto_lrfd
-from pierimpact.design.quick_band import quick_band, sampled_trucks
+from pierimpact.design.quick_band import SIZE, quick_reactions, sampled_trucks
 from pierimpact.design.static_forces import StaticForcesInCollision
 from pierimpact.design.study import full_model
 from pierimpact.files.case import column_of, impact_heights, loaded
@@ -43,7 +43,7 @@ NUMBERS = (
     *("static_shear", "static_moment"),
     # Under the larger of reaction and contact force, and whether the reaction alone will do.
     *("safe_shear", "safe_moment", "static_holds"),
-    *("shear_growth", "moment_growth"),  # of the static ones to the band's upper end
+    *("high_shear", "high_moment"),  # static ones that 95 % of the trucks stay below
     *("shear_resistance", "moment_resistance"),
 )
 
@@ -112,7 +112,8 @@ class _Impacts(NamedTuple):
     reaction: Array
     contact: Array
     average: Array
-    band: Array  # shape (2, m)
+    sampled: Array  # reactions of sampled trucks, shape (m, trucks); nan without a spread
+    arriving: Array  # share of these whose cargo meets the pier
 
 
 def calculate_piece(task: Task) -> Found:
@@ -146,12 +147,12 @@ def calculate_beams(task: Task) -> BeamFound:
     forces = []
     for own in read:
         try:
-            nominal, *sampled = np.max([_by_beam(own, struck) for struck in own.struck], axis=0)
+            nominal, *sampled = np.fmax.reduce([_by_beam(own, struck) for struck in own.struck])
         except (InputError, RuntimeError) as error:
             rejects.append(Reject(own.row, own.pier.name, "", f"as a beam: {error}"))
         else:
-            high = np.quantile(sampled, LEVELS[-1], axis=0) if sampled else [math.nan, math.nan]
-            forces.append(BeamForces(own.row, *map(float, (*nominal, *high))))
+            high = [_ends(values)[1] for values in np.reshape(sampled, (-1, 2)).T]
+            forces.append(BeamForces(own.row, *nominal.tolist(), *high))
     return BeamFound(forces, rejects)
 
 
@@ -172,7 +173,7 @@ def _by_beam(own: _Read, struck: StruckColumn) -> Array:
     if own.inputs.member_forces != "beam":
         unit = struck.member_forces(1.0)
         per_reaction = np.abs([unit.largest_shear.value, unit.largest_moment.value])
-        sampled = np.maximum(sampled, np.outer(full_model(trucks).governing, per_reaction))
+        sampled = np.fmax(sampled, np.outer(full_model(trucks).governing, per_reaction))
     return np.vstack((nominal, sampled))
 
 
@@ -207,7 +208,7 @@ def _collide(read: Sequence[_Read]) -> _Impacts:
     """Let the trucks strike all columns, at all heights."""
     if not read:
         none = np.empty(0)
-        return _Impacts(none, none, none, none, none, np.empty((2, 0)))
+        return _Impacts(none, none, none, none, none, np.empty((0, SIZE)), none)
     trucks = [own.truck for own in read for _ in own.struck]
     given = np.array(
         [
@@ -216,19 +217,33 @@ def _collide(read: Sequence[_Read]) -> _Impacts:
             for struck in own.struck
         ]
     ).T
+    mass, stiffness, ratio, speed = given
+    sampled, arriving = np.full((len(trucks), SIZE), math.nan), np.zeros(len(trucks))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnfinishedWarning)  # their reactions are nan
-        mass, stiffness, ratio, speed = given
         peaks, forces = contact_forces(trucks, mass, stiffness, ratio, speed, AVERAGE)
-    reaction = peaks.governing
-    band = np.full((2, len(trucks)), math.nan)
-    for alike in _alike([truck.spread for truck in trucks]):
-        spreads = spreads_of(trucks[alike[0]])
-        if spreads:
-            chosen = [trucks[i] for i in alike]
-            for part, parameters in parameter_chunks(chosen, *given[:, alike])[1]:
-                band[:, alike[part]] = quick_band(parameters, reaction[alike[part]], spreads)
-    return _Impacts(peaks.engine, peaks.cargo, reaction, forces.largest, forces.average, band)
+        reaction = peaks.governing
+        for alike in _alike([truck.spread for truck in trucks]):
+            spreads = spreads_of(trucks[alike[0]])
+            if spreads:
+                chosen = [trucks[i] for i in alike]
+                for part, parameters in parameter_chunks(chosen, *given[:, alike])[1]:
+                    here = alike[part]
+                    found = quick_reactions(parameters, reaction[here], spreads)
+                    sampled[here] = found.governing
+                    arriving[here] = np.mean(np.isfinite(found.cargo), axis=1)
+    return _Impacts(
+        peaks.engine, peaks.cargo, reaction, forces.largest, forces.average, sampled, arriving
+    )
+
+
+def _ends(values: Array) -> tuple[float, float]:
+    """Return what 5 and 95 % of the trucks stay below; nan of a truck is left out."""
+    finite = values[np.isfinite(values)]
+    if not len(finite):
+        return math.nan, math.nan
+    low, _, high = np.quantile(finite, LEVELS).tolist()
+    return low, high
 
 
 def _alike(spreads: Sequence[Mapping[str, Any]]) -> list[NDArray[np.int_]]:
@@ -245,16 +260,19 @@ def _numbers(own: _Read, impacts: _Impacts, mine: range) -> dict[str, float]:
     struck = own.struck[best - mine.start]
     inputs, equivalent = own.inputs, struck.equivalent(own.inputs.damping_ratio)
     # The average is over the impact that governs, bands and member forces are over all of them.
-    low, high = impacts.band[:, mine].max(axis=1)
-    static, safe, grown, holds = np.zeros(2), np.zeros(2), np.zeros(2), True
+    low, high = _ends(np.fmax.reduce(impacts.sampled[mine]))
+    static, safe, holds = np.zeros(2), np.zeros(2), True
+    sampled = np.full((2, SIZE), math.nan)  # of each truck the larger of all impacts
     for place, impact in zip(mine, own.struck, strict=True):
         reaction, contact = impacts.reaction[place], impacts.contact[place]
         unit = impact.member_forces(1.0)
         largest = np.abs([unit.largest_shear.value, unit.largest_moment.value])
         static = np.maximum(static, reaction * largest)
-        grown = np.maximum(grown, impacts.band[1, place] * largest)
+        sampled = np.fmax(sampled, np.outer(largest, impacts.sampled[place]))
         safe = np.maximum(safe, max(reaction, contact) * largest)
         holds &= StaticForcesInCollision(impact.static_forces, reaction, contact).hold
+        # Nobody knows for the trucks at the upper end, if it is they whose cargo arrives.
+        holds &= not math.isnan(impacts.cargo[place]) or impacts.arriving[place] <= 1.0 - LEVELS[-1]
     average = impacts.average[best]
     latitude, longitude = own.pier.place
     return {
@@ -280,8 +298,8 @@ def _numbers(own: _Read, impacts: _Impacts, mine: range) -> dict[str, float]:
         "safe_shear": safe[0],
         "safe_moment": safe[1],
         "static_holds": holds,
-        "shear_growth": grown[0] / static[0],
-        "moment_growth": grown[1] / static[1],
+        "high_shear": _ends(sampled[0])[1],
+        "high_moment": _ends(sampled[1])[1],
         "shear_resistance": inputs.shear_resistance or math.nan,
         "moment_resistance": inputs.moment_resistance or math.nan,
     }

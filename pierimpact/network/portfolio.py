@@ -132,7 +132,8 @@ def _truck(name: str, folder: Path) -> Truck | str:
 
 def _digest(table: PierTable, trucks: Mapping[str, Truck | str]) -> str:
     """Return a digest of all that the results depend on."""
-    versions = pierimpact.__version__, np.__version__, ROWS, BEAM_ROWS
+    kept = ROWS, BEAM_ROWS, WORDS, NUMBERS, BeamForces._fields
+    versions = pierimpact.__version__, np.__version__, kept
     spreads = [own.spread for own in trucks.values() if isinstance(own, Truck)]
     parts = table.sha256, versions, sorted(trucks.items(), key=lambda own: own[0]), spreads
     return hashlib.sha256(repr(parts).encode()).hexdigest()
@@ -277,9 +278,9 @@ def _portfolio(table: PierTable, found: Found, forces: Iterable[BeamForces]) -> 
         words[f"{which}_method"] = np.where(by_it, BEAM, np.where(careful, CONTACT, STATIC))
         resistance = numbers.pop(f"{which}_resistance")
         numbers[f"utilisation_{which}"] = numbers[f"largest_{which}"] / resistance
-        growth = numbers.pop(f"{which}_growth")
-        at_upper = np.where(known, high_by_beam, growth * numbers[f"largest_{which}"])
-        high[which] = at_upper / resistance
+        # The contact force of the trucks at the upper end is taken to grow as their reaction.
+        without = numbers.pop(f"high_{which}") * np.where(careful, safe / static, 1.0)
+        high[which] = np.where(known, high_by_beam, without) / resistance
     numbers["utilisation"] = np.fmax(numbers["utilisation_shear"], numbers["utilisation_moment"])
     numbers["utilisation_high"] = np.fmax(high["shear"], high["moment"])
     lost = {reject.row for reject in found.rejects}

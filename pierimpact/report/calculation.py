@@ -1,5 +1,6 @@
 """The calculation of a case: from the nominal impact height to reactions and member forces."""
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple, TypeAlias
@@ -12,7 +13,7 @@ from pierimpact.collision.averages import AverageForce, largest_average_force
 from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.simulate import simulate
 from pierimpact.design.band import LEVELS, ReactionBand, reaction_band
-from pierimpact.design.beam_band import BeamBand, beam_band
+from pierimpact.design.beam_band import beam_band
 from pierimpact.design.codes import CodeForce, aashto_lrfd, code_forces
 from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.design.sensitivity import SPEED_CHANGES, Sensitivity, sensitivity
@@ -103,13 +104,6 @@ class Impact:
             return None
         return simulate(self.case.truck, self.beam, self.case.inputs.speed).member_forces
 
-    def beam_band(self, band: ReactionBand) -> BeamBand:
-        """Return the member forces of the beam under the trucks of a band."""
-        assert self.beam is not None  # nobody asks for it without a beam
-        assert self.beam_forces is not None
-        duration = float(self.beam_forces.time[-1])
-        return beam_band(band.collision.parameters, band.parameters, self.beam, duration)
-
     @property
     def demands(self) -> dict[str, Demand]:
         """Largest "shear" and "moment"."""
@@ -126,6 +120,24 @@ class Impact:
             "shear": Demand(abs(static.largest_shear.value), shear, asked),
             "moment": Demand(abs(static.largest_moment.value), moment, asked),
         }
+
+    def sampled_demands(self, band: ReactionBand) -> dict[str, dict[str, Array]]:
+        """Return the largest "shear" and "moment" of the sampled trucks of a band, by method.
+
+        By "static" and, where there is a beam, by "beam" and the "larger" of both.
+        """
+        per_reaction = band.on(self.history.pier).governing / self.reaction
+        found = {
+            name: {"static": demand.static * per_reaction} for name, demand in self.demands.items()
+        }
+        if self.beam is not None and self.beam_forces is not None:
+            duration = float(self.beam_forces.time[-1])
+            by_beam = beam_band(band.collision.parameters, band.parameters, self.beam, duration)
+            for name, demand in self.demands.items():
+                own = found[name]
+                own["beam"] = (demand.beam or math.nan) * by_beam.ratios(name)
+                own["larger"] = np.fmax(own["static"], own["beam"])
+        return found
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,64 +236,38 @@ class Calculation:
         """
         if not self.band.spread:
             return None
-        low, middle, high = np.quantile(np.max(self._reactions, axis=0), LEVELS).tolist()
-        return low, middle, high
-
-    @cached_property
-    def _reactions(self) -> list[Array]:
-        """The reactions of the sampled trucks, by impact."""
-        return [self.band.on(impact.history.pier).governing for impact in self.impacts]
+        of_impacts = [self.band.on(impact.history.pier).governing for impact in self.impacts]
+        return _ends(np.fmax.reduce(of_impacts))
 
     @cached_property
     def sampled_demands(self) -> dict[str, dict[str, Array]]:
-        """Largest "shear" and "moment" of the sampled trucks by method.
+        """Largest "shear" and "moment" of the sampled trucks, as in `Impact.sampled_demands`.
 
-        By "static" and, where there is a beam, by "beam" and the "larger" of both; of each truck
-        the larger of all impacts. Empty without a spread.
+        Of each truck the larger of all impacts. Empty without a spread.
         """
         if not self.band.spread:
             return {}
-        beams = [impact.beam_band(self.band) for impact in self.impacts if impact.beam is not None]
-
-        def sampled(name: str) -> dict[str, Array]:
-            of_impacts = [impact.demands[name] for impact in self.impacts]
-            static = [
-                demand.static * reactions / impact.reaction
-                for impact, demand, reactions in zip(
-                    self.impacts, of_impacts, self._reactions, strict=True
-                )
-            ]
-            beam = [
-                (demand.beam or 0.0) * own.ratios(name)
-                for demand, own in zip(of_impacts, beams, strict=False)
-            ]
-            if not beam:
-                return {"static": np.max(static, axis=0)}
-            found = {"static": np.max(static, axis=0), "beam": np.max(beam, axis=0)}
-            return found | {"larger": np.fmax(found["static"], found["beam"])}
-
-        return {name: sampled(name) for name in ("shear", "moment")}
-
-    def upper_demands(self, method: str) -> dict[str, float]:
-        """Return the "shear" and "moment" that 95 % of the trucks stay below by a method."""
+        first, *others = [impact.sampled_demands(self.band) for impact in self.impacts]
         return {
-            name: float(np.quantile(by_method[method], LEVELS[-1]))
-            for name, by_method in self.sampled_demands.items()
+            name: {
+                method: np.fmax.reduce([values, *(own[name][method] for own in others)])
+                for method, values in by_method.items()
+            }
+            for name, by_method in first.items()
         }
 
-    @property
-    def demand_bands(self) -> dict[str, tuple[float, float]]:
-        """Largest "shear" and "moment" that 5 and 95 % of the sampled trucks stay below.
+    def demand_bands_by(self, method: str) -> dict[str, tuple[float, float]]:
+        """Return "shear" and "moment" that 5 and 95 % of the sampled trucks stay below by a method.
 
-        By the method that is asked for, or of each truck by the larger. Empty without a spread.
+        One of those of `sampled_demands`. Empty without a spread.
         """
-        asked = self.case.inputs.member_forces
-        ends = (LEVELS[0], LEVELS[-1])
-        found = {
-            name: np.quantile(by_method[asked], ends).tolist()
-            for name, by_method in self.sampled_demands.items()
-        }
-        return {name: (low, high) for name, (low, high) in found.items()}
+        found = {name: _ends(own[method]) for name, own in self.sampled_demands.items()}
+        return {name: (low, high) for name, (low, _, high) in found.items()}
+
+    @cached_property
+    def demand_bands(self) -> dict[str, tuple[float, float]]:
+        """The same by the method that is asked for, or of each truck by the larger."""
+        return self.demand_bands_by(self.case.inputs.member_forces)
 
     @property
     def member_forces(self) -> MemberForces:
@@ -388,8 +374,8 @@ class Calculation:
     def upper_utilisations_by(self, method: str) -> dict[str, float]:
         """Return them by one of the methods of `sampled_demands`."""
         return {
-            name: demand / self.resistances[name]
-            for name, demand in self.upper_demands(method).items()
+            name: high / self.resistances[name]
+            for name, (_, high) in self.demand_bands_by(method).items()
             if name in self.resistances
         }
 
@@ -438,6 +424,12 @@ class Calculation:
         }
         frame = DataFrame.from_dict(rows, orient="index", columns=["value", "unit"])
         return frame.astype({"value": float})
+
+
+def _ends(values: Array) -> tuple[float, float, float]:
+    """Return what 5, 50 and 95 % of the sampled trucks stay below; nan of a truck is left out."""
+    low, middle, high = np.nanquantile(values, LEVELS).tolist()
+    return low, middle, high
 
 
 def calculate(case: Case) -> Calculation:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 
+from pierimpact.design.band import LEVELS
 from pierimpact.design.domain import Outside
 from pierimpact.files.plausible import unusual
 from pierimpact.pier.static_forces import TOO_LOW
@@ -68,8 +69,8 @@ def _too_low(calculation: Calculation) -> Iterator[str]:
     }
     where, beyond = "", {name: ratio for name, ratio in beams.items() if ratio * TOO_LOW > 1.0}
     if beams and not beyond and calculation.band.spread:
-        beam, static = (calculation.upper_demands(method) for method in ("beam", "static"))
-        beyond = {name: beam[name] / static[name] for name in beam}
+        beam, static = (calculation.demand_bands_by(method) for method in ("beam", "static"))
+        beyond = {name: high / static[name][1] for name, (_, high) in beam.items()}
         beyond = {name: ratio for name, ratio in beyond.items() if ratio * TOO_LOW > 1.0}
         where = "At the upper end of the band the column"
     if beyond:
@@ -77,11 +78,21 @@ def _too_low(calculation: Calculation) -> Iterator[str]:
             f"{rounded(ratio, 3)} times the {name}" for name, ratio in beyond.items()
         )
         yield (
-            f"{where or 'The column'} as a beam takes {times} that the static reaction gives: one "
-            "degree of freedom does not represent this column."
+            f"{where} as a beam takes {times} that the static reaction gives."
+            if where
+            else f"The column as a beam takes {times} that the static reaction gives: one degree "
+            "of freedom does not represent this column."
         )
-    if calculation.governing.beam_forces is None and not calculation.static_forces.hold:
-        yield calculation.static_forces.sentence
+    if calculation.governing.beam_forces is None:
+        band, cargo = calculation.band, calculation.history.cargo_contact_time
+        if not calculation.static_forces.hold:
+            yield calculation.static_forces.sentence
+        elif cargo is None and band.spread and band.cargo_contact > 1.0 - LEVELS[-1]:
+            yield (
+                f"The cargo of {rounded(100.0 * band.cargo_contact, 2)} % of the sampled trucks "
+                "reaches the pier, that of this one does not: whether static shear and moment are "
+                "enough for those is not known; the column as a beam gives it."
+            )
 
 
 def _wall(calculation: Calculation) -> Iterator[str]:
