@@ -20,7 +20,7 @@ it was; what it needs for that is in DIR/pieces, which may be deleted. Results t
 replaced, and sheets by earlier runs removed, unless somebody changed them.
 """
 _EPILOG = """\
-A row costs one to some milliseconds of one core; as a beam, 100 to 200 ms more. Exit code: 0 if the
+A row costs one to some milliseconds of one core; as a beam, 150 to 300 ms more. Exit code: 0 if the
 results are written, whether or not rows were rejected; 2 if the table is bad or the scheduler does
 not answer; 1 if anything else failed; 130 if interrupted.
 """

@@ -70,10 +70,13 @@ def _poisson_ratio(name: str, value: Any) -> float:
     return result
 
 
+def is_auto(value: Any) -> bool:
+    """Say whether an impact height is to be both nominal ones."""
+    return isinstance(value, str) and value.strip().lower() == "auto"
+
+
 def _impact_height(name: str, value: Any) -> Any:
-    if isinstance(value, str) and value.strip().lower() == "auto":
-        return "auto"
-    return _quantity(name, value)
+    return "auto" if is_auto(value) else _quantity(name, value)
 
 
 def _text(name: str, value: Any) -> str:

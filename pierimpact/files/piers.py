@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_origin
 
 from pierimpact.checks import InputError, brief, did_you_mean, one_line
-from pierimpact.files.inputs import Inputs
+from pierimpact.files.inputs import Inputs, is_auto
 from pierimpact.files.keys import quantity_of
 from pierimpact.files.reading import require_regular
 from pierimpact.symbols import BY_KEY
@@ -160,7 +160,7 @@ def _value(column: Column, cell: str) -> object:
         if not _NUMBER.fullmatch(cell):
             raise InputError(f"{column.key} must be a plain number, got {brief(cell)}{hint}")
         return float(cell)
-    if not column.unit or (column.key == "impact_height" and cell.lower() == "auto"):
+    if not column.unit or (column.key == "impact_height" and is_auto(cell)):
         return cell
     if not _NUMBER.fullmatch(cell):
         raise InputError(

@@ -78,8 +78,12 @@ RESULTS = (
     ResultColumn("cargo_peak", "force", "largest reaction from cargo contact on; empty without"),
     ResultColumn("governs", _WORD, "the larger of the two"),
     ResultColumn("design_reaction", "force", "the larger peak by the full model"),
-    ResultColumn("band_low", "force", "below which 5 % of 128 sampled trucks stay"),
-    ResultColumn("band_high", "force", "below which 95 % of 128 sampled trucks stay"),
+    ResultColumn(
+        "band_low",
+        "force",
+        "below which 5 % of 128 sampled trucks stay, of each the larger of both heights",
+    ),
+    ResultColumn("band_high", "force", "below which 95 % of these stay"),
     ResultColumn("contact_force", "force", "largest force of the truck on the pier"),
     ResultColumn("average_25ms", "force", "largest 25 ms average of the contact force"),
     ResultColumn("code_ratio", "ratio", "that average over the force of AASHTO LRFD, 600 kip"),
@@ -95,7 +99,11 @@ RESULTS = (
     ResultColumn("utilisation_shear", "ratio", "shear over its resistance; empty without one"),
     ResultColumn("utilisation_moment", "ratio", "moment over its resistance; empty without one"),
     ResultColumn("utilisation", "ratio", "the larger of the two"),
-    ResultColumn("utilisation_high", "ratio", "that 95 % of these trucks stay below"),
+    ResultColumn(
+        "utilisation_high",
+        "ratio",
+        "that 95 % of these trucks stay below; by the beam, if there is one, or the static forces",
+    ),
 )
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from pierimpact.design.band import ReactionBand
 from pierimpact.design.codes import aashto_lrfd
 from pierimpact.report.calculation import AVERAGE, Calculation
 from pierimpact.symbols import BY_KEY
@@ -83,7 +82,7 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
             "Band, 5 to 95 %",
             Printed(f"{low}–{high}", unit_of("force", system)),
             f"as the truck’s parameters{_but_for(result)} vary within their spread{larger}; "
-            f"{_moved_most(result.band)}",
+            f"{_moved_most(result)}",
         )
     for (name, demand), value in zip(result.demands.items(), _largest(result), strict=True):
         of_static = (
@@ -110,14 +109,16 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
     )
 
 
-def _moved_most(band: ReactionBand) -> str:
+def _moved_most(calculation: Calculation) -> str:
     """Return which parameter moves the reaction most, if any does."""
+    band, several = calculation.band, len(calculation.impacts) > 1
     name, share = next(iter(band.influence.items()))
     if share == 0.0:
         return "the spread that the truck file gives does not move it"
     return (
         f"moved most by the {BY_KEY[name].meaning}, {band.spread[name].words}: "
         f"{rounded(100.0 * share, 2)} % of the variance, alone and with others"
+        f"{', at the height that governs' if several else ''}"
     )
 
 

@@ -174,9 +174,9 @@ def summary_blocks(rows: Sequence[Row]) -> list[Block]:
 
 _RESULTS_CAPTION = (
     "Results, the worst case first: those that exceed a resistance, then those that do so at the "
-    "upper end of the band; by the larger utilisation and, of cases without a resistance, by the "
-    "code ratio. Design reaction, with the reactions that 5 and 95 % of trucks of the given "
-    "spread stay below; largest shear ",
+    "upper end of the band of shear or moment; by the larger utilisation and, of cases without a "
+    "resistance, by the code ratio. Design reaction, with the reactions that 5 and 95 % of trucks "
+    "of the given spread stay below; largest shear ",
     *(Tex("V"), " and moment ", Tex("M"), " anywhere on the column, by the column as a beam or "),
     *("under the static reaction, and over their resistances ", Tex(r"V_\mathrm{R}"), " and "),
     *(Tex(r"M_\mathrm{R}"), "; code ratio: largest 25 ms average of the contact force over the "),

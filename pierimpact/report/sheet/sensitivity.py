@@ -108,10 +108,10 @@ class Sensitivities(Section):
         return Figure(
             label="fig-band",
             caption=f"Reactions by the full model{at_one} as the truck’s parameters vary within "
-            "their spread: 5 to 95 % of 1000 sampled trucks, and the governing reaction with one "
-            "parameter at a time at either end; with its share of the variance, alone and with "
-            "others, so that the shares may add up to more than 100 %. Source of the spreads: "
-            f"{'; '.join(sources)}.",
+            f"their spread: 5 to 95 % of {len(band.governing)} sampled trucks, and the governing "
+            "reaction with one parameter at a time at either end; with its share of the variance, "
+            "alone and with others, so that the shares may add up to more than 100 %. Source of "
+            f"the spreads: {'; '.join(sources)}.",
             alt=f"Nine of ten governing reactions are from {low} to {high}. The {name} moves it "
             "most.",
             svg=draw_band(band, self.system),
