@@ -124,6 +124,23 @@ def test_a_row_comes_to_what_a_report_of_it_does(table):
             assert math.isnan(own["band_high"])
 
 
+@pytest.mark.parametrize("height", ["1.2 m", "auto"])
+def test_static_forces_are_not_vouched_for_where_the_cargo_arrives_in_part(height, tmp_path, here):
+    # Of the nominal truck it does not, and for that truck static forces hold.
+    row = f"A,,,circular,40,,,7,25,2400,fixed,free,,single-unit-8t,8,50,{height},5,6 MN*m,"
+    path = tmp_path / "piers.csv"
+    path.write_text(f"{HEADING}\n{row}\n")
+    table = read_pier_table(path)
+    case = table.pier(task_of(table).rows[0]).values
+    report = calculate(case_from({**case, "member_forces": "larger"}))
+    assert report.history.cargo_contact_time is None
+    assert report.static_forces.hold
+    found = calculate_portfolio(table, tmp_path)
+    assert found.words["static_forces"].tolist() == ["may be too low"]
+    upper = max(report.upper_utilisations.values())
+    assert found.numbers["utilisation_high"] == pytest.approx([upper], rel=0.06)
+
+
 def test_demands_utilisations_and_ranks(table, tmp_path, here):
     found = calculate_portfolio(table, tmp_path)
     words, numbers = found.words, found.numbers
