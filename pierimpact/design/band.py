@@ -119,9 +119,7 @@ class ReactionBand:
         shares = one_row("levels", finite_array("levels", levels))
         for share in shares[(shares < 0.0) | (shares > 1.0)]:
             raise InputError(f"levels must lie from 0 to 1, got {share:g}")
-        values = getattr(self, one_of("of", of, REACTIONS))
-        values = values[np.isfinite(values)]
-        return np.quantile(values, shares) if len(values) else np.full(len(shares), np.nan)
+        return quantiles(getattr(self, one_of("of", of, REACTIONS)), shares)
 
     def sampled(self, index: int) -> Collision:
         """Return one of the sampled collisions, by its number from 0 on."""
@@ -260,6 +258,12 @@ def reaction_band(
         first_order=ranked(first.tolist()),
         tornado=ranked([(low, high) for low, high in ends.reshape(count, 2).tolist()]),
     )
+
+
+def quantiles(values: Array, levels: Sequence[float] | Array = LEVELS) -> Array:
+    """Return what these shares of the finite values stay below; nan where there are none."""
+    finite = values[np.isfinite(values)]
+    return np.asarray(np.quantile(finite, levels)) if len(finite) else np.full(len(levels), np.nan)
 
 
 def sobol_indices(a: Array, b: Array, mixed: Array) -> tuple[Array, Array]:

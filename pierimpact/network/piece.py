@@ -18,7 +18,7 @@ from pierimpact.collision.groups import repeat
 from pierimpact.collision.parameters import parameter_chunks
 from pierimpact.collision.propagation import UnfinishedWarning
 from pierimpact.collision.simulate import simulate
-from pierimpact.design.band import LEVELS, spreads_of
+from pierimpact.design.band import LEVELS, quantiles, spreads_of
 from pierimpact.design.beam_band import beam_band
 from pierimpact.design.codes import aashto_lrfd
 from pierimpact.design.quick_band import SIZE, quick_reactions, sampled_trucks
@@ -151,8 +151,8 @@ def calculate_beams(task: Task) -> BeamFound:
         except (InputError, RuntimeError) as error:
             rejects.append(Reject(own.row, own.pier.name, "", f"as a beam: {error}"))
         else:
-            high = [_ends(values)[1] for values in np.reshape(sampled, (-1, 2)).T]
-            forces.append(BeamForces(own.row, *nominal.tolist(), *high))
+            high = [quantiles(values)[-1] for values in np.reshape(sampled, (-1, 2)).T]
+            forces.append(BeamForces(own.row, *map(float, (*nominal, *high))))
     return BeamFound(forces, rejects)
 
 
@@ -237,15 +237,6 @@ def _collide(read: Sequence[_Read]) -> _Impacts:
     )
 
 
-def _ends(values: Array) -> tuple[float, float]:
-    """Return what 5 and 95 % of the trucks stay below; nan of a truck is left out."""
-    finite = values[np.isfinite(values)]
-    if not len(finite):
-        return math.nan, math.nan
-    low, _, high = np.quantile(finite, LEVELS).tolist()
-    return low, high
-
-
 def _alike(spreads: Sequence[Mapping[str, Any]]) -> list[NDArray[np.int_]]:
     """Return the places of equal mappings, together."""
     places: dict[Any, list[int]] = {}
@@ -260,7 +251,7 @@ def _numbers(own: _Read, impacts: _Impacts, mine: range) -> dict[str, float]:
     struck = own.struck[best - mine.start]
     inputs, equivalent = own.inputs, struck.equivalent(own.inputs.damping_ratio)
     # The average is over the impact that governs, bands and member forces are over all of them.
-    low, high = _ends(np.fmax.reduce(impacts.sampled[mine]))
+    low, _, high = quantiles(np.fmax.reduce(impacts.sampled[mine])).tolist()
     static, safe, holds = np.zeros(2), np.zeros(2), True
     sampled = np.full((2, SIZE), math.nan)  # of each truck the larger of all impacts
     for place, impact in zip(mine, own.struck, strict=True):
@@ -298,8 +289,8 @@ def _numbers(own: _Read, impacts: _Impacts, mine: range) -> dict[str, float]:
         "safe_shear": safe[0],
         "safe_moment": safe[1],
         "static_holds": holds,
-        "high_shear": _ends(sampled[0])[1],
-        "high_moment": _ends(sampled[1])[1],
+        "high_shear": float(quantiles(sampled[0])[-1]),
+        "high_moment": float(quantiles(sampled[1])[-1]),
         "shear_resistance": inputs.shear_resistance or math.nan,
         "moment_resistance": inputs.moment_resistance or math.nan,
     }

@@ -12,7 +12,7 @@ from pierimpact.checks import InputError
 from pierimpact.collision.averages import AverageForce, largest_average_force
 from pierimpact.collision.history import CollisionHistory, Peak
 from pierimpact.collision.simulate import simulate
-from pierimpact.design.band import LEVELS, ReactionBand, reaction_band
+from pierimpact.design.band import ReactionBand, quantiles, reaction_band
 from pierimpact.design.beam_band import beam_band
 from pierimpact.design.codes import CodeForce, aashto_lrfd, code_forces
 from pierimpact.design.reaction import DesignReaction, design_reaction
@@ -121,12 +121,13 @@ class Impact:
             "moment": Demand(abs(static.largest_moment.value), moment, asked),
         }
 
-    def sampled_demands(self, band: ReactionBand) -> dict[str, dict[str, Array]]:
+    def sampled_demands(self, band: ReactionBand, reactions: Array) -> dict[str, dict[str, Array]]:
         """Return the largest "shear" and "moment" of the sampled trucks of a band, by method.
 
-        By "static" and, where there is a beam, by "beam" and the "larger" of both.
+        By "static", from their `reactions` here, and, where there is a beam, by "beam" and the
+        "larger" of both.
         """
-        per_reaction = band.on(self.history.pier).governing / self.reaction
+        per_reaction = reactions / self.reaction
         found = {
             name: {"static": demand.static * per_reaction} for name, demand in self.demands.items()
         }
@@ -236,8 +237,13 @@ class Calculation:
         """
         if not self.band.spread:
             return None
-        of_impacts = [self.band.on(impact.history.pier).governing for impact in self.impacts]
-        return _ends(np.fmax.reduce(of_impacts))
+        low, middle, high = quantiles(np.fmax.reduce(self._sampled_reactions)).tolist()
+        return low, middle, high
+
+    @cached_property
+    def _sampled_reactions(self) -> list[Array]:
+        """The reactions of the sampled trucks, by impact."""
+        return [self.band.on(impact.history.pier).governing for impact in self.impacts]
 
     @cached_property
     def sampled_demands(self) -> dict[str, dict[str, Array]]:
@@ -247,7 +253,10 @@ class Calculation:
         """
         if not self.band.spread:
             return {}
-        first, *others = [impact.sampled_demands(self.band) for impact in self.impacts]
+        first, *others = [
+            impact.sampled_demands(self.band, reactions)
+            for impact, reactions in zip(self.impacts, self._sampled_reactions, strict=True)
+        ]
         return {
             name: {
                 method: np.fmax.reduce([values, *(own[name][method] for own in others)])
@@ -261,8 +270,8 @@ class Calculation:
 
         One of those of `sampled_demands`. Empty without a spread.
         """
-        found = {name: _ends(own[method]) for name, own in self.sampled_demands.items()}
-        return {name: (low, high) for name, (low, _, high) in found.items()}
+        found = {name: quantiles(own[method]) for name, own in self.sampled_demands.items()}
+        return {name: (float(low), float(high)) for name, (low, _, high) in found.items()}
 
     @cached_property
     def demand_bands(self) -> dict[str, tuple[float, float]]:
@@ -424,12 +433,6 @@ class Calculation:
         }
         frame = DataFrame.from_dict(rows, orient="index", columns=["value", "unit"])
         return frame.astype({"value": float})
-
-
-def _ends(values: Array) -> tuple[float, float, float]:
-    """Return what 5, 50 and 95 % of the sampled trucks stay below; nan of a truck is left out."""
-    low, middle, high = np.nanquantile(values, LEVELS).tolist()
-    return low, middle, high
 
 
 def calculate(case: Case) -> Calculation:

@@ -62,27 +62,25 @@ def _smaller_asked(calculation: Calculation) -> Iterator[str]:
 
 def _too_low(calculation: Calculation) -> Iterator[str]:
     """Yield where the reaction as a static force gives too little."""
-    beams = {
+    over_static = {
         name: 1.0 / demand.ratio
         for name, demand in calculation.demands.items()
         if demand.ratio is not None
     }
-    where, beyond = "", {name: ratio for name, ratio in beams.items() if ratio * TOO_LOW > 1.0}
-    if beams and not beyond and calculation.band.spread:
-        beam, static = (calculation.demand_bands_by(method) for method in ("beam", "static"))
-        beyond = {name: high / static[name][1] for name, (_, high) in beam.items()}
-        beyond = {name: ratio for name, ratio in beyond.items() if ratio * TOO_LOW > 1.0}
-        where = "At the upper end of the band the column"
-    if beyond:
-        times = " and ".join(
-            f"{rounded(ratio, 3)} times the {name}" for name, ratio in beyond.items()
-        )
+    if times := _times_too_low(over_static):
         yield (
-            f"{where} as a beam takes {times} that the static reaction gives."
-            if where
-            else f"The column as a beam takes {times} that the static reaction gives: one degree "
-            "of freedom does not represent this column."
+            f"The column as a beam takes {times} that the static reaction gives: one degree of "
+            "freedom does not represent this column."
         )
+    elif over_static and calculation.band.spread:
+        beam, static = (calculation.demand_bands_by(method) for method in ("beam", "static"))
+        if times := _times_too_low(
+            {name: high / static[name][1] for name, (_, high) in beam.items()}
+        ):
+            yield (
+                f"At the upper end of the band the column as a beam takes {times} that the static "
+                "reaction gives."
+            )
     if calculation.governing.beam_forces is None:
         band, cargo = calculation.band, calculation.history.cargo_contact_time
         if not calculation.static_forces.hold:
@@ -93,6 +91,15 @@ def _too_low(calculation: Calculation) -> Iterator[str]:
                 "reaches the pier, that of this one does not: whether static shear and moment are "
                 "enough for those is not known; the column as a beam gives it."
             )
+
+
+def _times_too_low(over_static: dict[str, float]) -> str:
+    """Return by how much a beam's forces are over static ones that are too low; "" if none is."""
+    return " and ".join(
+        f"{rounded(ratio, 3)} times the {name}"
+        for name, ratio in over_static.items()
+        if ratio * TOO_LOW > 1.0
+    )
 
 
 def _wall(calculation: Calculation) -> Iterator[str]:
