@@ -112,8 +112,13 @@ def test_what_rests_on_a_whole_calculation_is_clear(name):
     averages = dict.fromkeys((0.01, 0.025, 0.05), 0.7 * reaction)
     codes = code_forces(speed, truck.mass)
     low, _, high = band.quantiles()
+    force, moment = (
+        abs(getattr(impacts[0][0], f"largest_{name}").value) / reaction
+        for name in ("shear", "moment")
+    )
+    bands = {"shear": (force * low, force * high), "moment": (-moment * low, -moment * high)}
     for drawn in (
-        figure_of(envelopes.draw_envelopes, impacts, resistances, system, column),
+        figure_of(envelopes.draw_envelopes, impacts, resistances, bands, system, column),
         figure_of(spectra.draw_spectra, changes.frequency, pier.frequency, system),
         figure_of(code_bars.draw_code_bars, codes, averages, reaction, (low, high), system),
         figure_of(tornado.draw_tornado, changes, band, reaction, system),

@@ -75,13 +75,16 @@ def test_the_envelopes_hold_those_of_every_impact(system):
         static, back = (COLUMN.member_forces(force, height) for force in (5e6, -3e6))
         impacts.append((static, back, beam))
         beams.append(beam)
-    panels = axes_of(envelopes.draw_envelopes, impacts, (4e6, 1e6), system, COLUMN)
+    bands = {"shear": (2e6, 7e6), "moment": (-1e6, -9e6)}
+    panels = axes_of(envelopes.draw_envelopes, impacts, (4e6, 1e6), bands, system, COLUMN)
     length = unit_size("length", system)
     for axes, name, kind in zip(panels, ("shear", "moment"), ("force", "moment"), strict=True):
         unit = unit_size(kind, system)
         for static, back, _ in impacts:
             for forces in (static, back):
                 assert drawn(axes, getattr(forces, name) / unit, forces.z / length)
+        foot = -envelopes._ROOM * COLUMN.height / length
+        assert drawn(axes, np.array(bands[name]) / unit, [foot, foot])
         (area,) = axes.collections
         (low, high) = area.get_paths()[0].get_extents().intervalx
         extremes = [getattr(beam, f"{name}_extremes") for beam in beams]
@@ -138,7 +141,7 @@ def test_the_widest_bar_is_on_top(changes, collision, system):
 
 def test_a_resistance_far_away_is_said_in_words():
     impact = COLUMN.member_forces(5e6, HEIGHT), COLUMN.member_forces(-2e6, HEIGHT), None
-    given = [impact], (9e9, 3e6), "SI", COLUMN
+    given = [impact], (9e9, 3e6), {}, "SI", COLUMN
     shear, moment = axes_of(envelopes.draw_envelopes, *given)
     assert "beyond this figure" in shear.get_xlabel()
     assert "beyond this figure" not in moment.get_xlabel()

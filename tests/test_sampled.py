@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from pierimpact.files.case import case_from, read_case_file
 from pierimpact.report.calculation import calculate
 from pierimpact.report.outcome import statement
+from pierimpact.report.sheet import Sheet
 from pierimpact.report.warnings import warnings_of
 from pierimpact.resources import shipped
 
@@ -71,6 +72,26 @@ def test_of_both_methods_each_truck_counts_with_the_larger():
         assert np.array_equal(by_method["larger"], larger)
         # The nominal truck's ratio of the methods is not every truck's.
         assert np.ptp(by_method["static"] / by_method["beam"]) > 0.1
+
+
+@pytest.mark.parametrize("asked", ["static", "beam", "larger"])
+def test_bands_are_drawn_on_the_side_of_what_governs(asked, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(
+        "pierimpact.report.sheet.member_forces.draw_envelopes",
+        lambda impacts, resistances, bands, *_: drawn.append(bands) or "",
+    )
+    sheet = Sheet(case_from(EXAMPLE | {"member_forces": asked}))
+    sheet.member_forces.diagrams()
+    (bands,), result = drawn, sheet.calculation
+    for name, (low, high) in result.demand_bands.items():
+        beam = result.largest_of_beam(name)
+        values = {
+            "static": getattr(result.member_forces, f"largest_{name}").value,
+            "beam": 0.0 if beam is None else beam[0].value,
+        }
+        governing = values.get(asked) or max(values.values(), key=abs)
+        assert bands[name] == tuple(np.sign(governing) * np.array([low, high]))
 
 
 def test_a_truck_whose_collision_is_unfinished_is_left_out():

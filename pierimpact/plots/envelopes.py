@@ -1,6 +1,6 @@
 """Shear and moment over the height of a column, by two methods and of both signs, for a page."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -25,6 +25,9 @@ _ENVELOPE = "#dbe9f4"
 _STATIC: dict[str, Any] = {"color": VERMILION, "linewidth": 1.1, "dashes": (5, 2)}
 _REVERSED: dict[str, Any] = {"color": VERMILION, "linewidth": 0.9, "dashes": (1.5, 1.5)}
 _RESISTANCE: dict[str, Any] = {"color": INK, "linewidth": 1.2, "dashes": (9, 2, 2, 2)}
+_BAND: dict[str, Any] = {"color": INK, "linewidth": 1.0, "marker": "|"}
+# Left free above and below the column, and below the bands, over its height.
+_ROOM, _BAND_ROOM = 0.1, 0.1
 _FAR = 1.8  # a resistance so many times beyond the largest demand is not drawn
 _HEIGHTS = 601  # at which the envelope of several impacts is taken
 
@@ -45,13 +48,14 @@ _QUANTITIES = (
 def draw_envelopes(
     impacts: Sequence[Impact],
     resistances: tuple[float | None, float | None],
+    bands: Mapping[str, tuple[float, float]],
     system: str,
     column: PierColumn | None = None,
 ) -> str:
     """Draw the envelopes of shear and moment side by side, with the resistances; return SVG.
 
     168 × 72 mm. Filled: the column as a beam; dashed: under the reaction as a static force; dotted:
-    under the smallest reaction, as the pier swings back.
+    under the smallest reaction, as the pier swings back. At the foot: bands of the largest ones.
 
     Parameters
     ----------
@@ -60,23 +64,32 @@ def draw_envelopes(
         those of the column as a beam, or None where it was not calculated.
     resistances : tuple of float or None
         Shear resistance [N] and moment resistance [N m].
+    bands : mapping of str to tuple of float
+        Of the largest "shear" [N] and "moment" [N m] the values at 5 and 95 %, with their sign;
+        empty without a spread.
     system : {"SI", "US"}
         Units to print in.
     column : PierColumn, optional
         The column, for what holds its ends.
     """
     size = unit_size("length", system)
+    bottom, *_, top = impacts[0][0].z / size
+    room = _ROOM * (top - bottom)
+    band = bottom - room  # height of the bands
+    foot = band - (_BAND_ROOM * (top - bottom) if bands else 0.0)
     margins = {"left": 11.0, "right": 2.0, "bottom": 8.0, "top": 1.0}
     with page_figure(TEXT_WIDTH, 72.0, **margins, wspace=0.05) as figure:
         panels: Any = figure.subplots(1, 2, sharey=True)
         labels: list[Label] = []
         for axes, quantity, resistance in zip(panels, _QUANTITIES, resistances, strict=True):
-            axes.margins(y=0.1)
+            axes.set_ylim(foot, top + room)
             axes.axvline(0.0, color=INK, linewidth=0.6)
             for static, _, _ in impacts:
                 axes.axhline(static.impact_height / size, color=INK, linewidth=0.4, dashes=(2, 3))
             found = _draw_beam(axes, impacts, quantity, system)
             found += _draw_static(axes, impacts, quantity, system)
+            if quantity.name in bands:
+                found.insert(0, _draw_band(axes, bands[quantity.name], band, quantity, system))
             labels += _draw_resistance(axes, resistance, quantity, system) + found
             axes.locator_params(axis="x", nbins=6)
             trim_ticks(axes, 0.06)
@@ -146,6 +159,15 @@ def _draw_static(
             along = [own[i] + share * (own[i + 1] - own[i]) for own in corners for i in (0, 2)]
             names.append(Label(axes, words, np.concatenate(along), (side, 0.0), colour))
     return values + names
+
+
+def _draw_band(
+    axes: Axes, band: tuple[float, float], z: float, quantity: _Quantity, system: str
+) -> Label:
+    """Draw a band at a height below the column; return its label."""
+    low, high = (value / unit_size(quantity.kind, system) for value in band)
+    axes.plot([low, high], [z, z], **_BAND)
+    return Label(axes, "5 to 95 %", [(x, z) for x in np.linspace(low, high, 9)], (0.0, -1.0))
 
 
 def _number(value: float, quantity: _Quantity, system: str) -> str:

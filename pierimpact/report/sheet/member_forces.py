@@ -1,5 +1,7 @@
 """Member forces by the beam and under the static reaction, their diagrams, and utilisations."""
 
+import math
+
 import numpy as np
 
 from pierimpact.plots.envelopes import draw_envelopes
@@ -174,6 +176,7 @@ class MemberForces(Section):
             for name, quantity in DEMANDS.items()
         }
         given = inputs.shear_resistance is not None or inputs.moment_resistance is not None
+        bands = self._signed_bands()
         return Figure(
             label="fig-members",
             caption="Shear and moment over the height: dashed, under the design reaction and, "
@@ -184,6 +187,7 @@ class MemberForces(Section):
                 else "; filled, the beam’s envelopes of both signs"
             )
             + ("; vertical, the resistances" if given else "")
+            + ("; at the foot, the largest of each truck, 5 to 95 %" if bands else "")
             + ". Moment positive where the far face is in tension.",
             alt=f"Envelopes of shear and moment. The largest shear is {largest['shear']}, the "
             f"largest moment {largest['moment']}.",
@@ -193,6 +197,7 @@ class MemberForces(Section):
                     for impact in result.impacts
                 ],
                 (inputs.shear_resistance, inputs.moment_resistance),
+                bands,
                 self.system,
                 self.case.column,
             ),
@@ -234,3 +239,16 @@ class MemberForces(Section):
             rows=[[name, Tex(symbol) if symbol else "", *shown] for name, symbol, shown in rows],
             strong=[3],
         )
+
+    def _signed_bands(self) -> dict[str, tuple[float, float]]:
+        """Return the bands of the largest shear and moment, on the side of what governs."""
+        result, bands = self.calculation, {}
+        for name, (low, high) in result.demand_bands.items():
+            beam = result.largest_of_beam(name)
+            if result.demands[name].method == "beam" and beam is not None:
+                governing = beam[0].value
+            else:
+                governing = getattr(result.member_forces, f"largest_{name}").value
+            sign = math.copysign(1.0, governing)
+            bands[name] = (sign * low, sign * high)
+        return bands
