@@ -583,9 +583,14 @@ def test_codes_at_their_own_height(calculated):
     caption = re.search(r'id="tab-effects">(.*?)<tbody>', calculated.page, re.DOTALL)[1]
     units = [mathml.size(unit) for unit in re.findall(r"\[([^\]]+)\]</th>", caption)]
     force_size, length, _, moment_size = units
+    checked = calculated.numbers("tab-utilisation") if "tab-utilisation" in calculated.page else {}
+    resistances = {
+        name.split()[0]: row[3] for name, row in checked.items() if row[3] != "not given"
+    }
     rows, given = calculated.numbers("tab-effects"), calculated.numbers("tab-codes")
     assert len(rows) == len(given) + 1 > 8
     for name, (force, height, shear, moment, *ratios) in rows.items():
+        used = [ratios.pop() for _ in resistances][::-1]
         if name in given:
             assert force == given[name][2]
             assert height == (given[name][4] if given[name][4] != "—" else height)
@@ -608,6 +613,11 @@ def test_codes_at_their_own_height(calculated):
         largest = max(abs(values[(symbol,)][0]) for symbol in ("M_b", "M_n", "M_t"))
         largest *= force_size / moment_size
         close(largest * number(force), moment, largest * (half(force) + 1e-4 * number(force)))
+        share = max(abs(values[(symbol,)][0]) for symbol in ("R_b", "R_t"))
+        per_force = {"Shear": share, "Moment": largest}
+        for ratio, (check, resistance) in zip(used, resistances.items(), strict=True):
+            found = per_force[check] * number(force) / number(resistance)
+            close(found, ratio, 1e-3 * found, digits=3)
 
 
 @pytest.mark.parametrize(
@@ -773,7 +783,9 @@ def test_what_does_not_come_about_or_does_not_hold_is_said_first(calculated):
         rows = calculated.numbers("tab-utilisation")
         ratios = {name.split(" ")[0].lower(): row[4] for name, row in rows.items()}
     exceeded = [(name, text) for name, text in ratios.items() if text and number(text) > 1.0]
-    assert re.findall(r"The (\w+) is ([\d.]+) times the resistance", first) == exceeded
+    fails = re.search(r"does not hold: utilisation ((?:[\d.]+ in \w+(?: and )?)+)", first)
+    said = re.findall(r"([\d.]+) in (\w+)", fails[1]) if fails else []
+    assert [(name, text) for text, name in said] == exceeded
     assert "is illustrative" in calculated.page
 
 

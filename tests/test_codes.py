@@ -72,7 +72,7 @@ CLAUSES = {
 }
 # What the notes say of amounts, and of how sure those are that the table does not have.
 NOTED = {
-    "AASHTO LRFD": ("(TxDOT’s manual, read)", "below 0.001;", "30 ft", "15° of the travel: unver"),
+    "AASHTO LRFD": ("(TxDOT’s manual, read)", "below 0.001;", "30 ft", "worst of 2 to 5 ft: unver"),
     "JTG D60": ("edition of 2015", "no less than 1/6 (second-hand)"),
     "JCSS, hard impact": ("variation of 20 %", "m v / F"),  # 300 ± 60 kN/m
 }

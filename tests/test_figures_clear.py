@@ -10,9 +10,19 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
-from pierimpact import CircularSection, Step, load_truck, reaction_band, simulate
+from pierimpact import (
+    CircularSection,
+    FreeSection,
+    PierColumn,
+    RectangularSection,
+    Step,
+    load_truck,
+    reaction_band,
+    simulate,
+)
 from pierimpact.design.codes import code_forces
 from pierimpact.design.sensitivity import sensitivity
+from pierimpact.files.limits import POSSIBLE
 from pierimpact.plots import (
     code_bars,
     crush,
@@ -76,6 +86,29 @@ def test_the_situation_is_clear(case, truck, reaction, system):
     column, height = case
     drawn = figure_of(situation.draw_situation, column, height, truck, reaction, system)
     assert collisions(drawn) == []
+
+
+@pytest.mark.parametrize("height", POSSIBLE["column_height"])
+@pytest.mark.parametrize(
+    "section",
+    [
+        *(CircularSection(diameter=end) for end in POSSIBLE["column_diameter"]),
+        RectangularSection(**dict.fromkeys(("width", "depth"), POSSIBLE["column_depth"][1])),
+        # Of the largest and of the smallest radius of gyration.
+        *(
+            FreeSection(
+                area=POSSIBLE["column_area"][i],
+                second_moment=POSSIBLE["column_second_moment"][1 - i],
+                shear_area=POSSIBLE["column_shear_area"][0],
+            )
+            for i in (0, 1)
+        ),
+    ],
+)
+def test_what_a_case_may_give_finds_a_scale(section, height):
+    column = PierColumn(height=height, section=section, elastic_modulus=25e9, density=2400.0)
+    svg = situation.draw_situation(column, 0.5 * height, TRUCKS[0], 1e6, "SI")
+    assert "Elevation" in svg
 
 
 @SOME

@@ -1,18 +1,20 @@
 """What the figures of the sheet's pages draw is what they were given."""
 
+import io
 from unittest.mock import patch
 
 import numpy as np
 import pytest
 from generated_columns import round_column
 from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
 
 from pierimpact import load_truck, reaction_band, simulate
 from pierimpact.design.codes import code_forces
 from pierimpact.design.sensitivity import sensitivity
-from pierimpact.plots import code_bars, envelopes, history, shape, spectra, tornado
+from pierimpact.plots import code_bars, envelopes, history, shape, spectra, tornado, words
 from pierimpact.plots.style import VERMILION
-from pierimpact.units import unit_size
+from pierimpact.units import QUANTITIES, unit_size
 
 TRUCK, COLUMN, HEIGHT, SPEED = load_truck("single-unit-8t"), round_column(6.0, 1.0), 1.3, 21.0
 STRUCK = COLUMN.struck_at(HEIGHT)
@@ -148,3 +150,14 @@ def test_a_resistance_far_away_is_said_in_words():
     dashed = [line for line in moment.lines if to_hex(line.get_color()) != VERMILION]
     places = {abs(float(line.get_xdata()[0])) for line in dashed if len(line.get_xdata()) == 2}
     assert any(place == pytest.approx(3000.0) for place in places)
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+@SYSTEMS
+def test_the_font_has_every_character_of_a_value(quantity, system, caplog):
+    figure = Figure()
+    for line, value in enumerate((1.234, 5.6e-9, 1.7e12)):
+        figure.text(0.1, 0.2 * line, words.shown(value, quantity, system))
+        figure.text(0.6, 0.2 * line, f"$x$ = {words.shown(value, quantity, system)}")
+    figure.savefig(io.BytesIO(), format="svg")
+    assert caplog.messages == []

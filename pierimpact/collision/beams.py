@@ -25,6 +25,7 @@ RESIDUAL_TURN = 1.5  # of the last shape in one step [rad]
 SHORTEST = 1e-5  # step [s]; springs that would ask for a shorter one are made softer
 LONGER = 8  # times as long are steps when all trucks have left
 STEPS = 16  # between two looks at what they have come to; more than LONGER
+SEEN = 400  # steps since all have left, after which steps double: the fast shapes are at rest
 APART = 8  # heights between those looked at, besides the ends of parts
 AT_REST = 1e-9  # share of the speed
 
@@ -93,14 +94,18 @@ def largest_member_forces(
     else:
         return LargestMemberForces(*found)
 
-    last, before = vibration(LONGER * step)
-    q, q_before = motion[-1], motion[-1 - LONGER]
-    for _ in range(math.ceil(2.0 * math.pi / float(omega.min()) / (STEPS * LONGER * step))):
+    time, longer = 0.0, LONGER
+    while time < 2.0 * math.pi / float(omega.min()):
+        step *= longer
+        last, before = vibration(step)
+        q, q_before = motion[-1], motion[-1 - longer]
         for number in range(STEPS):
             after = np.multiply(last, q, out=motion[number])
             after += before * q_before
             q, q_before = after, q
         found = np.maximum(found, largest(motion))
+        time += STEPS * step
+        longer = 2 if time > SEEN * step else 1
     return LargestMemberForces(*found)
 
 

@@ -69,9 +69,9 @@ def aashto_lrfd(system: str = "SI") -> CodeForce:
         height=_height(1.5, 5.0, system),
         note="Based on two full-scale tests. Quoted in kip by the source paper; other units are "
         "converted. The height is cited as 1.5 m; 5 ft is from memory. The clause number is from "
-        "memory, and that the force acts within 15° of the travel: unverified. Texas (TxDOT’s "
-        "manual, read): not needed where the annual frequency of a hit is below 0.001; trigger "
-        "distance 30 ft.",
+        "memory, and that the force acts within 15° of the travel and, in recent editions, at what "
+        "is worst of 2 to 5 ft: unverified. Texas (TxDOT’s manual, read): not needed where the "
+        "annual frequency of a hit is below 0.001; trigger distance 30 ft.",
     )
 
 

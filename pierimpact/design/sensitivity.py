@@ -20,8 +20,10 @@ Array: TypeAlias = NDArray[np.float64]
 SPEED_CHANGES = {"SI": 10.0 / 3.6, "US": 5.0 * 0.44704}
 MASS_CHANGE = 0.2
 
-#: Curves run over these shares of the case's value: this project's choice.
+#: Curves run over these shares of the case's value, and that of the height of an impact at the
+#: ground over these heights [m]: this project's choice.
 SHARES = np.linspace(0.5, 1.5, 31)
+_FROM_GROUND = np.linspace(0.0, 1.0, 31)
 # And over these frequencies: this project's choice [Hz].
 _FREQUENCIES = np.geomspace(2.0, 200.0, 259)
 
@@ -109,7 +111,7 @@ def sensitivity(
     asked: dict[str, tuple[Any, Callable[[float], Collision | None]]] = {
         "speed": (speed * SHARES, at_speed),
         "mass": (mass * SHARES, at_mass),
-        "impact_height": (impact_height * SHARES, at_height),
+        "impact_height": (impact_height * SHARES if impact_height else _FROM_GROUND, at_height),
         "frequency": (np.unique(np.append(_FREQUENCIES, pier.frequency)), at_frequency),
         "slower": ([speed - speed_change], at_speed),
         "faster": ([speed + speed_change], at_speed),

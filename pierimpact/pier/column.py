@@ -429,7 +429,8 @@ class StruckColumn:
 
         At this reaction R_y the largest moment anywhere, elastic and without axial force, is the
         resistance M_R, and the first hinge forms. A redundant column carries more until its hinges
-        make it a mechanism, so that R_y is on the safe side for the reaction. Derived here.
+        make it a mechanism, so that R_y is on the safe side for the reaction. It is infinite where
+        the force bends nothing, as at a pinned base. Derived here.
 
         Parameters
         ----------
@@ -437,7 +438,8 @@ class StruckColumn:
             Resistance M_R of the section in bending [N m].
         """
         moment_resistance = positive("moment_resistance", moment_resistance)
-        return moment_resistance / abs(self.member_forces(1.0).largest_moment.value)
+        largest = abs(self.member_forces(1.0).largest_moment.value)
+        return moment_resistance / largest if largest > 0.0 else math.inf
 
     @property
     def stiffness(self) -> float:

@@ -29,7 +29,7 @@ def draw_code_bars(
     """Draw the forces of codes below averages of the contact force and the reaction; return SVG.
 
     168 mm wide and, with twelve codes and three averages, 53 mm high. Hatched: a force that was
-    not read in the code itself.
+    neither read in the code nor cited by the source paper.
 
     Parameters
     ----------

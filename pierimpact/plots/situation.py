@@ -22,8 +22,10 @@ from pierimpact.vehicle.truck import Truck
 WIDTH, HEIGHT = 92.0, 88.0
 
 # To which it is drawn, one to so many: the finest that fits.
-_SCALES = (5, 10, 15, 20, 25, 30, 40, 50, 75, 100, 125, 150, 200, 250, 300, 400, 500, 750, 1000,
-           1500, 2000)  # fmt: skip
+_SCALES: tuple[float, ...] = (
+    *(5, 10, 15, 20, 25, 30, 40, 50, 75),
+    *(step * 10**power for power in range(2, 7) for step in (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 7.5)),
+)
 # On paper [mm]: sizes of supports and gaps; what is kept free right of the column, above it and
 # below it, and between it and the truck; the largest depth of the column; room for the section, and
 # within it for the section itself.
@@ -81,12 +83,12 @@ def draw_situation(
         labels += _draw_heights(axes, column, impact_height, -face, mm, system)
         mass = f"{shown(truck.mass, 'mass', system, given=True)}"
         labels.append(Label(axes, mass, (max(face - _GAP * mm - 2.2, left), 1.1), (0.0, 0.0)))
-        axes.text(0.01, 0.01, f"Elevation 1:{scale}", transform=axes.transAxes)
+        axes.text(0.01, 0.01, f"Elevation 1:{scale:.0f}", transform=axes.transAxes)
         place(figure, labels + _add_section(figure, struck, system))
         return to_svg(figure)
 
 
-def _scale_of(column: PierColumn) -> int:
+def _scale_of(column: PierColumn) -> float:
     """Return the scale of the elevation: column, truck, and section above the truck find room."""
     needs = (
         (column.height + column.embedment, HEIGHT - _ABOVE - _BELOW),
@@ -152,5 +154,5 @@ def _add_section(figure: Figure, section: Section, system: str) -> list[Label]:
     mm = scale / 1e3
     x, y = 0.5 * width - 1.0, 0.5 * height + 0.5  # of the middle of the section, on paper
     axes.set(xlim=(-x * mm, (width - x) * mm), ylim=(-y * mm, (height - y) * mm))
-    axes.text(0.02, 0.99, f"Section 1:{scale}", transform=axes.transAxes, va="top")
+    axes.text(0.02, 0.99, f"Section 1:{scale:.0f}", transform=axes.transAxes, va="top")
     return draw_section(axes, section, _UNIT * mm, system)

@@ -5,14 +5,14 @@ import re
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import printed
 
-_POWER = re.compile("×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
+_POWER = re.compile("(10)?([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
 _PLAIN = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
 def shown(value: float, quantity: str, system: str, *, given: bool = False) -> str:
     """Return a value [SI] with its unit; arguments as in `units.printed`."""
     text = str(printed(value, quantity, system, given=given)).replace("\u202f", " ")
-    return _POWER.sub(lambda power: f"×$10^{{{power[1].translate(_PLAIN)}}}$", text)
+    return _POWER.sub(lambda power: f"${power[1] or ''}^{{{power[2].translate(_PLAIN)}}}$", text)
 
 
 def named(name: str, value: float, system: str) -> str:

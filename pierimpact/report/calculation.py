@@ -31,6 +31,8 @@ Array: TypeAlias = NDArray[np.float64]
 WINDOWS = (0.010, 0.025, 0.050)
 #: The one that the force of AASHTO LRFD was taken from, as read in NCHRP Report 892 [s].
 AVERAGE = 0.025
+# Numerical: how often a collision is followed for longer, each time by a quarter of it at least.
+_EXTENSIONS = 12
 
 
 class Demand(NamedTuple):
@@ -212,6 +214,11 @@ class Calculation:
         """Reaction of the check by hand over that of the full model [-]."""
         return self.short.reaction / self.design_force
 
+    @property
+    def checked_by_hand(self) -> bool:
+        """Whether the check by hand was tried on cases like this one."""
+        return not (self.short.outside or self.short.overlapping)
+
     @cached_property
     def sensitivity(self) -> Sensitivity:
         """The reaction as speed, truck mass, impact height and pier frequency change."""
@@ -360,6 +367,13 @@ class Calculation:
             effects.append(CodeEffect(code, height, forces))
         return effects
 
+    def utilisations_under(self, forces: MemberForces) -> dict[str, float]:
+        """Return what these member forces come to, as `utilisations` do."""
+        return {
+            name: abs(getattr(forces, f"largest_{name}").value) / resistance
+            for name, resistance in self.resistances.items()
+        }
+
     @property
     def resistances(self) -> dict[str, float]:
         """The resistances that the case gives, to "shear" [N] and "moment" [N m]."""
@@ -447,9 +461,14 @@ def calculate(case: Case) -> Calculation:
 
 
 def _with_reversal(case: Case, pier: EquivalentPier) -> CollisionHistory:
-    """Return the collision, followed until the pier has swung back as far as it will."""
+    """Return the collision, followed until the pier has swung back as far as it will.
+
+    Without damping it may throw a truck about for ever, of which a part is enough.
+    """
     history = simulate(case.truck, pier, case.inputs.speed)
-    while not history.has_swung_back:
+    for _ in range(_EXTENSIONS):
+        if history.has_swung_back:
+            break
         longer = 1.25 * history.end.time + 1.0 / pier.frequency  # numerical: any would do
         history = simulate(case.truck, pier, case.inputs.speed, longer)
     return history

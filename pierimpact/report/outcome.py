@@ -73,7 +73,8 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
         "Design reaction",
         shown(result.design_force, "force"),
         f"{result.governs} peak of the full model, at {height} above the ground{of_both}; by "
-        f"hand {shown(result.short.reaction, 'force')}, {rounded(result.ratio, 3)} times",
+        f"hand {shown(result.short.reaction, 'force')}, {rounded(result.ratio, 3)} times"
+        f"{'' if result.checked_by_hand else ', which is no check here'}",
     )
     if result.reaction_band is not None:
         low, _, high = (shown(value, "force").number for value in result.reaction_band)
@@ -100,13 +101,23 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
             shown(average.force, "force"),
             f"of the contact force: {rounded(result.code_ratio or 0.0, 3)} times the "
             f"{shown(code.along.value, 'force', given=True)} of {code.code}, which is "
-            "such an average",
+            f"such an average{_under_code(result)}",
         )
     yield FirstResult(
         "Pier frequency",
         shown(pier.frequency, "frequency"),
         f"{shown(pier.stiffness, 'stiffness')}, {shown(pier.mass, 'mass')}",
     )
+
+
+def _under_code(calculation: Calculation) -> str:
+    """Return what the force of AASHTO LRFD alone comes to, where something is checked."""
+    _, height, forces = calculation.code_effects[0]
+    if forces is None or not calculation.resistances:
+        return ""
+    ratios = calculation.utilisations_under(forces)
+    place = printed(height, "length", calculation.case.inputs.units, given=True)
+    return f"; that force alone, at {place}: utilisation {listed(ratios)}"
 
 
 def _moved_most(calculation: Calculation) -> str:

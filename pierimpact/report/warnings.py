@@ -23,8 +23,12 @@ def warnings_of(calculation: Calculation) -> list[str]:
     They are in the order of what they do to safety: what fails; where the method gives too little;
     where an input is likely wrong or is no evidence; where only a check says less than it could.
     """
+    return [*_exceeded(calculation), *warnings_beside_verdict(calculation)]
+
+
+def warnings_beside_verdict(calculation: Calculation) -> list[str]:
+    """Return the same but for what the verdict says: what fails."""
     return [
-        *_exceeded(calculation),
         *_smaller_asked(calculation),
         *_too_low(calculation),
         *_wall(calculation),
@@ -63,9 +67,9 @@ def _smaller_asked(calculation: Calculation) -> Iterator[str]:
 def _too_low(calculation: Calculation) -> Iterator[str]:
     """Yield where the reaction as a static force gives too little."""
     over_static = {
-        name: 1.0 / demand.ratio
+        name: _over(demand.beam, demand.static)
         for name, demand in calculation.demands.items()
-        if demand.ratio is not None
+        if demand.beam is not None
     }
     if times := _times_too_low(over_static):
         yield (
@@ -75,7 +79,7 @@ def _too_low(calculation: Calculation) -> Iterator[str]:
     elif over_static and calculation.band.spread:
         beam, static = (calculation.demand_bands_by(method) for method in ("beam", "static"))
         if times := _times_too_low(
-            {name: high / static[name][1] for name, (_, high) in beam.items()}
+            {name: _over(high, static[name][1]) for name, (_, high) in beam.items()}
         ):
             yield (
                 f"At the upper end of the band the column as a beam takes {times} that the static "
@@ -93,10 +97,15 @@ def _too_low(calculation: Calculation) -> Iterator[str]:
             )
 
 
+def _over(beam: float, static: float) -> float:
+    """Return how many times a static force one of the beam is; of a base that is struck none is."""
+    return beam / static if static > 0.0 else math.inf
+
+
 def _times_too_low(over_static: dict[str, float]) -> str:
     """Return by how much a beam's forces are over static ones that are too low; "" if none is."""
     return " and ".join(
-        f"{rounded(ratio, 3)} times the {name}"
+        f"{rounded(ratio, 3) if math.isfinite(ratio) else '∞'} times the {name}"
         for name, ratio in over_static.items()
         if ratio * TOO_LOW > 1.0
     )

@@ -6,7 +6,7 @@ from pierimpact.plots.code_bars import draw_code_bars
 from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
-from pierimpact.units import converted, rounded
+from pierimpact.units import compared, converted, rounded
 
 _UNKNOWN = "—"
 
@@ -45,7 +45,7 @@ class Codes(Section):
             "then what moves the reaction most.",
             caption="Forces of codes along the travel, the largest averages of the contact force, "
             "and the design reaction. That of AASHTO LRFD was taken from a 25 ms average. Hatched: "
-            "not read in the code itself.",
+            "neither read in the code nor cited by the source paper.",
             alt=f"Largest averages of the contact force: {words or 'none'}. The reaction is "
             f"{self.shown(result.design_force, 'force')}.",
             svg=draw_code_bars(
@@ -114,14 +114,15 @@ class Codes(Section):
             ]
             if forces is None:
                 ratio = rounded(result.design_force / code.along.value, 3)
-                rows.append([code.code, *cells, "at or above the top", "", ratio, "", ""])
+                used = [""] * len(result.resistances)
+                rows.append([code.code, *cells, "at or above the top", "", ratio, "", "", *used])
             else:
                 rows.append([code.code, *cells, *self._effects(forces)])
         return Table(
             label="tab-effects",
             caption="The forces along the travel on this column, each at its own height or, marked "
             "*, at that of this calculation: base shear, largest moment, and this calculation over "
-            "each.",
+            "each" + ("; utilisation under that force." if result.resistances else "."),
             columns=columns(
                 wide("Code"),
                 decimal(f"Force [{force}]"),
@@ -131,21 +132,24 @@ class Codes(Section):
                 decimal("Ratio of force"),
                 decimal("of shear"),
                 decimal("of moment"),
+                *(decimal(f"Utilisation, {name}") for name in result.resistances),
             ),
             rows=rows,
             strong=[0],
         )
 
     def _effects(self, forces: MemberForces) -> list[str]:
-        """Return base shear and largest moment, and this calculation over force, shear, moment."""
-        own = self.calculation.member_forces
+        """Return base shear, largest moment, this calculation over these, and what they use."""
+        result = self.calculation
+        own, used = result.member_forces, result.utilisations_under(forces)
         shear, moment = abs(forces.base_force), abs(forces.largest_moment.value)
         return [
             self.number(shear, "force"),
             self.number(moment, "moment"),
             rounded(own.reaction / forces.reaction, 3),
             rounded(abs(own.base_force) / shear, 3) if shear else _UNKNOWN,
-            rounded(abs(own.largest_moment.value) / moment, 3),
+            rounded(abs(own.largest_moment.value) / moment, 3) if moment else _UNKNOWN,
+            *map(compared, used.values()),
         ]
 
     def notes(self) -> Block:

@@ -21,7 +21,7 @@ from pierimpact.report.outcome import (
     verdict,
 )
 from pierimpact.report.sheet.section import Section
-from pierimpact.report.warnings import warnings_of
+from pierimpact.report.warnings import warnings_beside_verdict
 from pierimpact.units import compared, rounded
 
 # As many as a reader takes in; the others stand with the limits: this project's choice.
@@ -177,7 +177,7 @@ class FirstPage(Section):
 
     def warnings(self) -> Block:
         """Return what a reader must know first before relying on the results."""
-        first = warnings_of(self.calculation)
+        first = warnings_beside_verdict(self.calculation)
         more = len(first) - _FIRST_WARNINGS
         if more > 0:
             first = [
@@ -188,7 +188,7 @@ class FirstPage(Section):
 
     def other_warnings(self) -> Block | None:
         """Return the warnings that the first page has no room for; None where there are none."""
-        others = warnings_of(self.calculation)[_FIRST_WARNINGS:]
+        others = warnings_beside_verdict(self.calculation)[_FIRST_WARNINGS:]
         return Notice(heading="Further warnings", body=others) if others else None
 
     def signatures(self) -> Block:
