@@ -70,10 +70,11 @@ DIMENSIONS = {
 #: What to say of a number with a comma.
 DECIMALS = "decimals have a point, thousands no comma"
 _LONGEST = 200  # characters of a quantity: this project's choice
-_DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+#: Pattern of a decimal number without its sign.
+DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 # Spaces that do not break, which documents have before a unit, are as good as others.
 _NUMBER = re.compile(
-    rf"\s*([-+]?(?:{_DIGITS}|(?:nan|inf)\b))[\s\u00a0\u2009\u202f]*(.*?)\s*", re.ASCII
+    rf"\s*([-+]?(?:{DIGITS}|(?:nan|inf)\b))[\s\u00a0\u2009\u202f]*(.*?)\s*", re.ASCII
 )
 _FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?[1-9])?"
 _EXPRESSION = re.compile(rf"(?:1?\s*/\s*)?{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
@@ -279,7 +280,7 @@ def pattern(dimension: str) -> str:
     units = [rf"(?:{some}){power}", rf"{factor}{more}{{1,5}}", rf"1?\s*/\s*{factor}{more}{{0,5}}"]
     if fitting:
         units.insert(0, one)
-    ways = [rf"[-+]?{_DIGITS}\s*(?:{'|'.join(units)})"]
+    ways = [rf"[-+]?{DIGITS}\s*(?:{'|'.join(units)})"]
     if dimension == "length":
         mixed = _FEET_AND_INCHES.pattern.replace(r"\"", '["″”]').replace("'", "['′’]")
         ways.append(rf"(?=.*\d){mixed}")

@@ -103,10 +103,10 @@ BAD = {
         "row 7: must have 2 columns, got 4; write decimals with a point, or part the columns by "
         "semicolons",
     ),
-    "decimal commas between semicolons": (
+    "what may be thousands": (
         "time [ms]; contact force [kN]",
-        [line.replace(", ", ";") for line in changed(5, "5;3,2")],
-        "row 7: contact force must be a number, got '3,2': write decimals with a point",
+        [line.replace(", ", ";") for line in changed(5, "5;3,250")],
+        "row 7: contact force must be a number, got '3,250': decimals have a point, thousands no",
     ),
     "short": (HEADING, rows()[:9], "must have at least 50 rows of numbers, got 9"),
     "no impact": (

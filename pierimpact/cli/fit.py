@@ -6,6 +6,7 @@ from typing import Any
 
 from pierimpact.checks import InputError, brief, one_of
 from pierimpact.cli.terminal import needs, progress_bar
+from pierimpact.files.csv_lines import decimal
 from pierimpact.files.limits import PIER_MASS, PIER_STIFFNESS, POSSIBLE, within
 from pierimpact.pier.equivalent import DAMPING_RATIO, EquivalentPier
 from pierimpact.units import parse
@@ -54,7 +55,7 @@ def add_fit(commands: Any) -> None:
         "pier-mass": {"metavar": "MASS", "help": "equivalent mass of the pier"},
         "pier-stiffness": {"metavar": "STIFFNESS", "help": "its stiffness at the impact height"},
         "damping-ratio": {
-            "metavar": "RATIO", "type": float,
+            "metavar": "RATIO",
             "help": f"its damping ratio (default: {DAMPING_RATIO:g})",
         },
         "filter": {
@@ -72,7 +73,7 @@ def add_fit(commands: Any) -> None:
             "metavar": "TIME", "help": "time of first touch in the records (default: 0 ms)",
         },
         "accuracy": {
-            "metavar": "SHARE", "type": float, "default": 0.05,
+            "metavar": "SHARE", "default": "0.05",
             "help": "a parameter counts as identified if three standard errors are at most this "
             "share of its value (default: %(default)s)",
         },
@@ -117,7 +118,7 @@ def _fit(options: argparse.Namespace) -> int:
             start=options.start,
             mass=_given(options, "mass", "mass"),
             treatment=treatment,
-            accuracy=options.accuracy,
+            accuracy=_possible("accuracy", options.accuracy, ""),
             name=output.stem if output else "fitted",
             progress=progress,
         )
@@ -140,9 +141,9 @@ def _given(options: argparse.Namespace, name: str, dimension: str) -> float | No
 
 
 def _possible(name: str, text: str, dimension: str) -> float:
-    """Return an option in SI units that is within what is possible."""
+    """Return an option in SI units, or without dimension, that is within what is possible."""
     option = f"--{name.replace('_', '-')}"
-    value = parse(option, text, dimension)
+    value = parse(option, text, dimension) if dimension else float(decimal(option, text))
     return within(option, value, _RANGES[name], dimension, text) if name in _RANGES else value
 
 
@@ -150,7 +151,7 @@ def piers_of(options: argparse.Namespace) -> list[EquivalentPier | None]:
     """Return the piers of the records, or the one of all; None is rigid."""
     mass = _given(options, "pier_mass", "mass")
     stiffness = _given(options, "pier_stiffness", "stiffness")
-    damping = options.damping_ratio
+    damping = _given(options, "damping_ratio", "")
     if options.case:
         if (mass, stiffness, damping) != (None, None, None):
             raise InputError(

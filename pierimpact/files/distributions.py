@@ -6,7 +6,8 @@ import warnings
 from collections.abc import Mapping
 from typing import Any
 
-from pierimpact.checks import InputError, brief, did_you_mean, number
+from pierimpact.checks import InputError, brief, did_you_mean
+from pierimpact.files.csv_lines import decimal
 from pierimpact.risk.distributions import Distribution
 from pierimpact.risk.laws import Lognormal, Normal
 from pierimpact.units import parse
@@ -112,7 +113,7 @@ def _of_scipy(name: str, law: str, given: Mapping[str, str], dimension: str) -> 
     values = {
         key: parse(f"{name}: {key}", value, dimension)
         if key in ("loc", "scale")
-        else _number(f"{name}: {key}", value)
+        else float(decimal(f"{name}: {key}", value))
         for key, value in given.items()
     }
     if not values["scale"] > 0.0:
@@ -135,12 +136,3 @@ def _refuse_others(
         if key not in (*needed, *more):
             hint = did_you_mean(key, (*needed, *more))
             raise InputError(f"{name}: {brief(key)} is no parameter of {law}{hint}")
-
-
-def _number(name: str, text: str) -> float:
-    try:
-        return number(name, float(text))
-    except ValueError as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"{name} must be a number, got {brief(text)}") from None

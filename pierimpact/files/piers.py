@@ -1,13 +1,12 @@
 """Tables of piers: CSV or Parquet, a row each, with the keys of case files as columns.
 
-A heading names a key, with its unit in brackets unless the cells have units: `speed [km/h]`. The
-table is read in pieces, so that it may be larger than memory.
+A heading names a key, with its unit in brackets unless the cells have units: `speed [km/h]`.
+Columns are parted by commas, semicolons or tabs; decimals have a point, or a comma where that parts
+no columns. The table is read in pieces, so that it may be larger than memory.
 """
 
-import csv
 import hashlib
 import math
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import islice
@@ -15,11 +14,21 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_origin
 
 from pierimpact.checks import InputError, brief, did_you_mean, one_line
+from pierimpact.files.csv_lines import (
+    NUMBER,
+    Row,
+    csv_rows,
+    decimal,
+    heading_and_rows,
+    name_and_unit,
+    with_point,
+    with_unit,
+)
 from pierimpact.files.inputs import Inputs, is_auto
 from pierimpact.files.keys import quantity_of
 from pierimpact.files.reading import require_regular
 from pierimpact.symbols import BY_KEY
-from pierimpact.units import DECIMALS, DIMENSIONS, parse
+from pierimpact.units import DIMENSIONS, parse
 
 #: Where a pier is, in degrees, with the largest that each may be.
 PLACE = {"latitude": 90.0, "longitude": 180.0}  # exactly
@@ -44,10 +53,6 @@ PLAIN = (
     ),
 )
 
-_HEADING = re.compile(r"\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*")
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-_MOST_CHARACTERS = 10_000  # of a cell; a stray quotation mark would swallow the file
-
 
 class Column(NamedTuple):
     """A column of a table."""
@@ -59,13 +64,6 @@ class Column(NamedTuple):
     def dimension(self) -> str:
         """What its values are, of `units.DIMENSIONS`; "" where they have no unit."""
         return quantity_of(self.key) if self.key in KEYS else ""
-
-
-class Row(NamedTuple):
-    """A row of a table, unchecked."""
-
-    number: int  #: as a spreadsheet counts it: the heading is row 1
-    cells: list[str]
 
 
 class Pier(NamedTuple):
@@ -134,13 +132,13 @@ def pier_of(columns: Iterable[Column], row: Row) -> Pier:
     columns = tuple(columns)
     if len(row.cells) != len(columns):
         hint = ""
-        if len(row.cells) > len(columns):
+        if len(row.cells) > len(columns) and not row.comma:
             hint = "; a cell with a comma in it must be in quotes"
         raise InputError(f"the row must have {len(columns)} cells, got {len(row.cells)}{hint}")
     values: dict[str, object] = {}
     for column, text in zip(columns, row.cells, strict=True):
         if cell := text.strip():
-            values[column.key] = _value(column, cell)
+            values[column.key] = _value(column, cell, comma=row.comma)
     if "id" not in values:
         raise InputError("id is missing")
     name = one_line("id", str(values.pop("id")))
@@ -154,46 +152,25 @@ def pier_of(columns: Iterable[Column], row: Row) -> Pier:
     return Pier(name, place, values)
 
 
-def _value(column: Column, cell: str) -> object:
-    hint = f": {DECIMALS}" if re.search(r"\d,\d", cell) else ""
+def _value(column: Column, cell: str, *, comma: bool) -> object:
     if column.key in PLAIN:
-        if not _NUMBER.fullmatch(cell):
-            raise InputError(f"{column.key} must be a plain number, got {brief(cell)}{hint}")
-        return float(cell)
-    if not column.unit or (column.key == "impact_height" and is_auto(cell)):
-        return cell
-    if not _NUMBER.fullmatch(cell):
-        raise InputError(
-            f"{column.key} must be a number, for its unit {column.unit} is in the heading, "
-            f"got {brief(cell)}{hint}"
-        )
-    return f"{cell} {column.unit}"
+        return float(decimal(column.key, cell, comma=comma, kind="a plain number"))
+    if column.unit and not (column.key == "impact_height" and is_auto(cell)):
+        return with_unit(column.key, cell, column.unit, comma=comma)
+    return with_point(cell, comma=comma and column.dimension != "")
 
 
 def _open(path: Path) -> tuple[list[str], Iterator[Row]]:
     """Return the heading of a file and its rows."""
     rows = _parquet(path) if path.suffix.lower() == ".parquet" else _csv(path)
-    heading = next(rows, None)
-    if heading is None:
-        raise InputError("must have a heading, such as: id, speed [km/h], …; got nothing")
-    return heading.cells, rows
+    heading, body = heading_and_rows(rows, "such as: id, speed [km/h], …")
+    return heading.cells, body
 
 
 def _csv(path: Path) -> Iterator[Row]:
-    """Yield the rows of a CSV file, the heading first; empty ones are left out."""
+    """Yield the rows of a CSV file, the heading first."""
     with path.open(encoding="utf-8-sig", newline="") as file:
-        first = file.readline()
-        separator = next((mark for mark in ";\t" if mark in first), ",")
-        file.seek(0)
-        reader = csv.reader(file, delimiter=separator, skipinitialspace=True, strict=True)
-        try:
-            for number, cells in enumerate(reader, 1):
-                if any(len(cell) > _MOST_CHARACTERS for cell in cells):
-                    raise InputError(f"row {number}: a quotation mark is not closed")
-                if any(cell.strip() for cell in cells):
-                    yield Row(number, cells)
-        except csv.Error as error:
-            raise InputError(f"row {reader.line_num}: not valid CSV: {error}") from None
+        yield from csv_rows(file)
 
 
 def _parquet(path: Path) -> Iterator[Row]:
@@ -219,8 +196,7 @@ def _parquet(path: Path) -> Iterator[Row]:
 def _columns(heading: Iterable[str]) -> tuple[Column, ...]:
     columns: list[Column] = []
     for cell in heading:
-        match = _HEADING.fullmatch(cell)
-        key, unit = (match[1], match[2] or "") if match else (cell, "")
+        key, unit = name_and_unit(cell)
         if key not in COLUMNS:
             raise InputError(f"{brief(cell)} is no column of piers{did_you_mean(key, COLUMNS)}")
         column = Column(key)
@@ -265,7 +241,7 @@ def _survey(columns: tuple[Column, ...], body: Iterable[Row]) -> tuple[int, tupl
         for i, column in list(waiting.items()):
             if cell := row.cells[i].strip():
                 del waiting[i]
-                if _NUMBER.fullmatch(cell):
+                if NUMBER.fullmatch(with_point(cell, comma=row.comma)):
                     unit = DIMENSIONS[column.dimension].units.partition(",")[0]
                     raise InputError(
                         f"{column.key} has no unit in row {row.number}: write it in the heading, "

@@ -1,29 +1,26 @@
 """Force records: a CSV file of times and forces, whose heading names quantities and units."""
 
 import hashlib
-import math
-import re
+import io
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pierimpact.checks import InputError, brief, did_you_mean, shortened
+from pierimpact.checks import InputError, brief, did_you_mean
 from pierimpact.collision.records import FEWEST, QUANTITIES
-from pierimpact.files.csv_lines import csv_cells, csv_lines
+from pierimpact.files.csv_lines import csv_rows, heading_and_rows, in_row, name_and_unit, numbers
 from pierimpact.files.reading import read_text
 from pierimpact.units import parse
 
 Array = NDArray[np.float64]
 
-_HEADING = re.compile(r"([^\[\]]*)\[([^\[\]]*)\]\s*")
 _EXAMPLE = "such as: time [ms], contact force [kN]"
 _DIMENSIONS = {"time": "time"} | dict.fromkeys(QUANTITIES, "force")
 _MOST = 4_000_000  # bytes, some 200,000 rows: this project's choice
 _LARGEST = {"time": 1e3, "force": 1e10}  # [s], [N]: this project's choice, beyond any record
 _GAP = 10.0  # times the usual step, from which one is a gap; this project's choice
-_DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,8 +38,8 @@ def read_record_file(path: str | Path) -> RecordFile:
     """Return the record of a CSV file.
 
     The first line that is neither empty nor a comment (#) is the heading; it names the time and one
-    of "contact force" and "reaction", each with its unit in brackets. Numbers have decimal points,
-    columns are parted by commas, semicolons or tabs.
+    of "contact force" and "reaction", each with its unit in brackets. Columns are parted by commas,
+    semicolons or tabs; decimals have a point, or a comma where that parts no columns.
 
     Raises
     ------
@@ -61,9 +58,11 @@ def read_record_file(path: str | Path) -> RecordFile:
 
 def _columns(text: str) -> tuple[str, Array, Array]:
     """Return the quantity, times [s] and forces [N] of a file's text."""
-    ((first, heading), *rest), separator = csv_lines(text, _EXAMPLE)
-    names, sizes = _heading(first, csv_cells(first, heading, separator))
-    rows = [(number, _numbers(number, line, separator, names)) for number, line in rest]
+    lines = io.StringIO(text, newline="")
+    heading, body = heading_and_rows(csv_rows(lines, comments=True), _EXAMPLE)
+    with in_row(heading.number):
+        names, sizes = _heading(heading.cells)
+    rows = [(row.number, found) for row, found in numbers(body, names)]
     if len(rows) < FEWEST:
         raise InputError(f"must have at least {FEWEST} rows of numbers, got {len(rows)}")
     places = [number for number, _ in rows]
@@ -86,60 +85,27 @@ def _columns(text: str) -> tuple[str, Array, Array]:
     return names[1 - column], time, force
 
 
-def _heading(row: int, cells: list[str]) -> tuple[list[str], Array]:
+def _heading(cells: list[str]) -> tuple[list[str], Array]:
     """Return the names of the two columns and the sizes of their units in SI."""
     names, sizes = [], []
     for cell in cells:
-        match = _HEADING.fullmatch(cell)
-        if match is None:
+        name, unit = name_and_unit(cell)
+        if not unit:
             raise InputError(
-                f"row {row}: the heading must name each quantity with its unit, {_EXAMPLE}; "
-                f"got {brief(cell)}"
+                f"the heading must name each quantity with its unit, {_EXAMPLE}; got {brief(cell)}"
             )
-        name, unit = match[1].strip().lower(), match[2].strip()
         if name not in _DIMENSIONS:
             raise InputError(
-                f"row {row}: {brief(match[1].strip())} is not one of {', '.join(_DIMENSIONS)}"
+                f"{brief(name)} is not one of {', '.join(_DIMENSIONS)}"
                 f"{did_you_mean(name, _DIMENSIONS)}"
             )
-        try:
-            sizes.append(parse(name, f"1 {unit}", _DIMENSIONS[name]))
-        except InputError as error:
-            raise InputError(f"row {row}: {error}") from None
+        sizes.append(parse(name, f"1 {unit}", _DIMENSIONS[name]))
         names.append(name)
     if len(names) != 2 or names.count("time") != 1:
         raise InputError(
-            f"row {row}: the heading must name time and one force, {_EXAMPLE}; "
-            f"got {', '.join(names)}"
+            f"the heading must name time and one force, {_EXAMPLE}; got {', '.join(names)}"
         )
     return names, np.array(sizes)
-
-
-def _numbers(row: int, line: str, separator: str, names: list[str]) -> list[float]:
-    """Return the numbers of a row."""
-    cells = csv_cells(row, line, separator)
-    if len(cells) != len(names):
-        hint = ""
-        if separator == "," and len(cells) == 2 * len(names):
-            hint = "; write decimals with a point, or part the columns by semicolons"
-        raise InputError(f"row {row}: must have {len(names)} columns, got {len(cells)}{hint}")
-    numbers = []
-    for name, cell in zip(names, cells, strict=True):
-        if not cell.strip():
-            raise InputError(f"row {row}: {name} is blank")
-        try:
-            if "_" in cell or not cell.isascii():  # which are digits to Python
-                raise ValueError
-            number = float(cell)
-        except ValueError:
-            hint = ": write decimals with a point" if _DECIMAL_COMMA.fullmatch(cell) else ""
-            raise InputError(
-                f"row {row}: {name} must be a number, got {brief(cell)}{hint}"
-            ) from None
-        if not math.isfinite(number):
-            raise InputError(f"row {row}: {name} must be finite, got {shortened(cell.strip(), 40)}")
-        numbers.append(number)
-    return numbers
 
 
 def _check_times(time: Array, places: list[int]) -> None:

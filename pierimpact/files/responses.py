@@ -1,17 +1,16 @@
 """Cases with their responses, measured or calculated by others, from a CSV file."""
 
-import csv
 import io
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from pierimpact.certainty import Certainty
-from pierimpact.checks import InputError, brief, known, number, one_line, one_of
+from pierimpact.checks import InputError, brief, known, one_line, one_of
 from pierimpact.collision.parameters import Collision
 from pierimpact.design.comparison import RESPONSES, Measured, check_response
 from pierimpact.files.case import case_from, loaded
+from pierimpact.files.csv_lines import Row, csv_rows, decimal, in_row, name_and_unit, with_unit
 from pierimpact.files.inputs import PHYSICAL_KEYS
 from pierimpact.files.limits import PIER_MASS, PIER_STIFFNESS, possible, within
 from pierimpact.files.reading import read_text
@@ -25,14 +24,14 @@ _TEXTS = ("case", "source", "status", "remark")
 _PIER = {"pier_mass": "mass", "pier_stiffness": "stiffness"}
 _WITH_PIER = ("truck", "truck_mass", "speed", "damping_ratio")
 _CASE = ("truck", *(key for key in PHYSICAL_KEYS if not key.endswith("_resistance")))
-_HEADING = re.compile(r"\s*(\w+)\s*(?:\[(.+)\])?\s*")
 
 
 def read_responses(path: str | Path) -> list[Measured]:
     """Return the cases of a CSV file, one a row.
 
     The first row names the columns, in any order. A value's unit stands beside its name, as in
-    "speed [mph]"; an empty cell is a value that is not given. The columns:
+    "speed [mph]"; an empty cell is a value that is not given. Columns are parted by commas,
+    semicolons or tabs; decimals have a point, or a comma where that parts no columns. The columns:
 
     - case: what the case is called;
     - source, status: where its responses come from, and how certain they are, in the words of
@@ -60,19 +59,17 @@ def read_responses(path: str | Path) -> list[Measured]:
         raise InputError(f"{path.name} {error}") from None
     units: dict[str, str] = {}
     found: list[Measured] = []
-    row = 0
     try:
-        for row, cells in enumerate(csv.reader(io.StringIO(text)), 1):
-            if row == 1:
-                units = _units(cells)
-            elif any(map(str.strip, cells)):
+        for row in csv_rows(io.StringIO(text, newline="")):
+            with in_row(row.number):
+                if not units:
+                    units = _units(row.cells)
+                    continue
                 if len(found) == _ROWS:
                     raise InputError(f"there must be at most {_ROWS} cases")
-                found.append(_measured(_given(units, cells), units, path.parent))
+                found.append(_measured(_given(units, row), path.parent))
     except InputError as error:
-        raise InputError(f"{path.name}, row {row}: {error}") from None
-    except csv.Error as error:
-        raise InputError(f"{path.name}, row {row + 1}: is not CSV: {error}") from None
+        raise InputError(f"{path.name}, {error}") from None
     if not found:
         raise InputError(f"{path.name} must have a row for each case, got none")
     return found
@@ -82,8 +79,7 @@ def _units(headings: list[str]) -> dict[str, str]:
     """Return the columns' units by name, in order; empty for what has none."""
     units: dict[str, str] = {}
     for heading in headings:
-        match = _HEADING.fullmatch(heading)
-        name, unit = (match[1], match[2] or "") if match else (heading, "")
+        name, unit = name_and_unit(heading)
         if name in units:
             raise InputError(f"{name} is given twice")
         kind = _kind(name)
@@ -108,29 +104,38 @@ def _kind(name: str) -> str:
     known(name, (*_TEXTS, *_PIER, *_CASE, *RESPONSES), "a column")
     if name in RESPONSES:
         return "force"
-    return (dimension(BY_KEY[name]) or "") if name in BY_KEY else ""
+    return dimension(BY_KEY[name]) if name in BY_KEY else ""
 
 
-def _given(units: Mapping[str, str], cells: list[str]) -> dict[str, str]:
-    """Return the cells of a row that are not empty, by their columns."""
-    if len(cells) > len(units):
-        raise InputError(f"there must be {len(units)} cells, got {len(cells)}")
-    pairs = zip(units, cells, strict=False)  # empty cells at the end may be left out
-    return {name: one_line(name, cell.strip()) for name, cell in pairs if cell.strip()}
-
-
-def _measured(given: dict[str, str], units: Mapping[str, str], folder: Path) -> Measured:
-    for name in ("case", "source", "status"):
-        if name not in given:
-            raise InputError(f"{name} is missing")
-    texts = {name: given.pop(name, "") for name in _TEXTS}
-    values: dict[str, Any] = {
-        name: f"{cell} {units[name]}" if units[name] else _plain(name, cell)
-        for name, cell in given.items()
+def _given(units: Mapping[str, str], row: Row) -> dict[str, Any]:
+    """Return what is in the cells of a row that are not empty, by their columns."""
+    if len(row.cells) > len(units):
+        raise InputError(f"there must be {len(units)} cells, got {len(row.cells)}")
+    pairs = zip(units, row.cells, strict=False)  # empty cells at the end may be left out
+    return {
+        name: _value(name, one_line(name, cell.strip()), units[name], comma=row.comma)
+        for name, cell in pairs
+        if cell.strip()
     }
+
+
+def _value(name: str, cell: str, unit: str, *, comma: bool) -> str | float:
+    """Return a quantity with its unit, a ratio as a number, and a word as it is."""
+    if unit:
+        return with_unit(name, cell, unit, comma=comma)
+    if name in BY_KEY and BY_KEY[name].quantity:
+        return float(decimal(name, cell, comma=comma))
+    return cell
+
+
+def _measured(values: dict[str, Any], folder: Path) -> Measured:
+    for name in ("case", "source", "status"):
+        if name not in values:
+            raise InputError(f"{name} is missing")
+    texts = {name: values.pop(name, "") for name in _TEXTS}
     responses = {
         name: parse(name, values.pop(name), "force")
-        for name in given
+        for name in [*values]
         if name not in _PIER and name not in _CASE
     }
     return Measured(
@@ -141,17 +146,6 @@ def _measured(given: dict[str, str], units: Mapping[str, str], folder: Path) -> 
         status=Certainty(one_of("status", texts["status"], tuple(Certainty))),
         remark=texts["remark"],
     )
-
-
-def _plain(name: str, cell: str) -> str | float:
-    """Return a word as it is, and a ratio as a number."""
-    if name not in BY_KEY or not BY_KEY[name].quantity:
-        return cell
-    try:
-        value = float(cell)
-    except ValueError:
-        raise InputError(f"{name} must be a number, got {brief(cell)}") from None
-    return number(name, value)
 
 
 def _collision(values: Mapping[str, Any], folder: Path) -> Collision:

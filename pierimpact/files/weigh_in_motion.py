@@ -1,20 +1,18 @@
 """Weigh-in-motion samples: a CSV file with the mass of each truck, and perhaps its speed."""
 
 import hashlib
-import math
-import re
+import io
 from pathlib import Path
 
 import numpy as np
 
 from pierimpact.checks import InputError, brief, did_you_mean
-from pierimpact.files.csv_lines import csv_cells, csv_lines
+from pierimpact.files.csv_lines import csv_rows, heading_and_rows, in_row, name_and_unit, numbers
 from pierimpact.files.limits import POSSIBLE
 from pierimpact.files.reading import read_text
 from pierimpact.risk.traffic import WeighedTrucks
 from pierimpact.units import parse
 
-_HEADING = re.compile(r"\s*(\w+)\s*\[\s*(.*?)\s*\]\s*")
 _EXAMPLE = "such as: mass [t], speed [km/h]"
 _COLUMNS = {"mass": "mass", "speed": "speed"}
 _LIMITS = {"mass": "truck_mass", "speed": "speed"}
@@ -25,8 +23,8 @@ def read_weigh_in_motion(path: Path) -> WeighedTrucks:
     """Return the trucks of a CSV file, one a row.
 
     The first line that is neither empty nor a comment (#) names the columns with their units, mass
-    and if there is one speed, in any order. Numbers have decimal points; columns are parted by
-    commas, semicolons or tabs.
+    and if there is one speed, in any order. Columns are parted by commas, semicolons or tabs;
+    decimals have a point, or a comma where that parts no columns.
 
     Raises
     ------
@@ -47,51 +45,38 @@ def read_weigh_in_motion(path: Path) -> WeighedTrucks:
 
 def _columns(text: str) -> dict[str, list[float]]:
     """Return the values of the columns by their names, in SI units."""
-    ((first, heading), *rest), separator = csv_lines(text, _EXAMPLE)
-    sizes = _sizes(first, csv_cells(first, heading, separator))
+    lines = io.StringIO(text, newline="")
+    heading, body = heading_and_rows(csv_rows(lines, comments=True), _EXAMPLE)
+    with in_row(heading.number):
+        sizes = _sizes(heading.cells)
     found: dict[str, list[float]] = {name: [] for name in sizes}
-    for row, line in rest:
-        cells = csv_cells(row, line, separator)
-        if len(cells) != len(sizes):
-            raise InputError(f"row {row}: must have {len(sizes)} columns, got {len(cells)}")
-        for (name, size), cell in zip(sizes.items(), cells, strict=True):
-            value = _positive(row, name, cell) * size
-            if value > POSSIBLE[_LIMITS[name]][1]:
-                raise InputError(f"row {row}: {name} is beyond any truck’s, got {brief(cell)}")
-            found[name].append(value)
-    if not rest:
+    for row, values in numbers(body, list(sizes)):
+        for name, cell, value in zip(sizes, row.cells, values, strict=True):
+            if not value > 0.0:
+                raise InputError(f"row {row.number}: {name} must be positive, got {brief(cell)}")
+            if value * sizes[name] > POSSIBLE[_LIMITS[name]][1]:
+                raise InputError(
+                    f"row {row.number}: {name} is beyond any truck’s, got {brief(cell)}"
+                )
+            found[name].append(value * sizes[name])
+    if not found["mass"]:
         raise InputError("must have a row for each truck, got none")
     return found
 
 
-def _sizes(row: int, cells: list[str]) -> dict[str, float]:
+def _sizes(cells: list[str]) -> dict[str, float]:
     """Return the sizes of the columns' units in SI by name, in order."""
     sizes: dict[str, float] = {}
     for cell in cells:
-        match = _HEADING.fullmatch(cell)
-        name = match[1].lower() if match else ""
-        if match is None or name not in _COLUMNS:
-            hint = did_you_mean(name, _COLUMNS) if name else ""
+        name, unit = name_and_unit(cell)
+        if not unit or name not in _COLUMNS:
             raise InputError(
-                f"row {row}: the heading must name mass, and speed if it is known, with their "
-                f"units, {_EXAMPLE}; got {brief(cell)}{hint}"
+                f"the heading must name mass, and speed if it is known, with their units, "
+                f"{_EXAMPLE}; got {brief(cell)}{did_you_mean(name, _COLUMNS) if unit else ''}"
             )
         if name in sizes:
-            raise InputError(f"row {row}: {name} is given twice")
-        try:
-            sizes[name] = parse(name, f"1 {match[2]}", _COLUMNS[name])
-        except InputError as error:
-            raise InputError(f"row {row}: {error}") from None
+            raise InputError(f"{name} is given twice")
+        sizes[name] = parse(name, f"1 {unit}", _COLUMNS[name])
     if "mass" not in sizes:
-        raise InputError(f"row {row}: there must be a column of masses, {_EXAMPLE}")
+        raise InputError(f"there must be a column of masses, {_EXAMPLE}")
     return sizes
-
-
-def _positive(row: int, name: str, cell: str) -> float:
-    try:
-        value = float(cell)
-    except ValueError:
-        raise InputError(f"row {row}: {name} must be a number, got {brief(cell)}") from None
-    if not (math.isfinite(value) and value > 0.0):
-        raise InputError(f"row {row}: {name} must be positive, got {brief(cell)}")
-    return value

@@ -25,8 +25,9 @@ from pierimpact.design.quick_band import SIZE, quick_reactions, sampled_trucks
 from pierimpact.design.static_forces import StaticForcesInCollision
 from pierimpact.design.study import full_model
 from pierimpact.files.case import column_of, impact_heights, loaded
+from pierimpact.files.csv_lines import Row
 from pierimpact.files.inputs import Inputs, read_inputs
-from pierimpact.files.piers import COLUMNS, Column, Pier, Row, pier_of
+from pierimpact.files.piers import COLUMNS, Column, Pier, pier_of
 from pierimpact.pier.column import StruckColumn
 from pierimpact.report.calculation import AVERAGE
 from pierimpact.vehicle.truck import Truck

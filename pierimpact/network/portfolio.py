@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 import pierimpact
 from pierimpact.checks import InputError, one_of
-from pierimpact.files.piers import PierTable, Row
+from pierimpact.files.csv_lines import Row
+from pierimpact.files.piers import PierTable
 from pierimpact.files.trucks import read_truck_file
 from pierimpact.files.write import write_files
 from pierimpact.network.piece import (
