@@ -91,6 +91,23 @@ def test_a_bridge_becomes_a_pier_by_the_rule_of_its_kind(tmp_path, rules):
     }
 
 
+def test_numbers_that_are_none(tmp_path, rules):
+    bridges = [
+        {"structure": "B1", "lanes_under": "\u00b2"},
+        {"structure": "B2", "built": "198\u00b9"},
+        {"structure": "B3", "latitude": "4220150\u00b9"},
+        {"structure": "B4", "traffic": "1_0"},
+        {"structure": "B5", "truck_share": "nan"},
+    ]
+    found = piers_of(inventory(tmp_path / "nbi.txt", bridges), read_rules(rules))
+    assert [own["trucks [1/day]"] for own in rows(found.held)] == ["", ""]
+    assert dict(found.left_out) == {
+        "no lanes under it": 1,
+        "no rule for kind 1, type 2": 1,
+        "latitude is not degrees, minutes, seconds and hundredths": 1,
+    }
+
+
 def test_coordinates_are_unpacked(tmp_path, rules):
     random = np.random.default_rng(2)
     places = random.integers((0, 0, 0, 0, 0, 0), (90, 60, 6000, 180, 60, 6000), (50, 6))

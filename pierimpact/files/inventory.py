@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from pierimpact.checks import InputError, brief, known, no_formula
+from pierimpact.files.csv_lines import decimal
 from pierimpact.files.piers import KEYS, REQUIRED
 from pierimpact.files.reading import require_regular
 from pierimpact.files.toml_table import read_toml
@@ -67,7 +68,7 @@ class Rule(NamedTuple):
         for name, codes in self.when.items():
             if name == "built":
                 first, last = map(int, codes)
-                if not (bridge[name].isdigit() and first <= int(bridge[name]) <= last):
+                if not (bridge[name].isdecimal() and first <= int(bridge[name]) <= last):
                     return False
             elif _code(bridge[name]) not in codes:
                 return False
@@ -265,7 +266,7 @@ def _place(what: str, heading: list[str], named: str | None) -> int:
 
 def _values(bridge: Mapping[str, str], rules: Rules) -> dict[str, str]:
     """Return the keys of a bridge's pier."""
-    if not (lanes := bridge["lanes_under"]).isdigit() or int(lanes) == 0:
+    if not (lanes := bridge["lanes_under"]).isdecimal() or int(lanes) == 0:
         raise InputError("no lanes under it")
     rule = next((rule for rule in rules.rules if rule.holds(bridge)), None)
     if rules.rules and rule is None:
@@ -285,15 +286,16 @@ def _degrees(bridge: Mapping[str, str], which: str) -> float | None:
         return None
     text = text.zfill(digits)
     minutes, seconds = text[-6:-4], text[-4:]
-    if not (text.isdigit() and len(text) == digits and int(minutes) < 60 and int(seconds) < 6000):
+    if not (text.isdecimal() and len(text) == digits and int(minutes) < 60 and int(seconds) < 6000):
         raise InputError(f"{which} is not degrees, minutes, seconds and hundredths")
     return int(text[:-6]) + int(minutes) / 60 + int(seconds) / 360_000
 
 
 def _held(bridge: Mapping[str, str]) -> Iterable[str]:
     try:
-        trucks = f"{float(bridge['traffic']) * float(bridge['truck_share']) / 100:.6g}"
-    except ValueError:  # one of them is not given
+        volume, share = (float(decimal(key, bridge[key])) for key in ("traffic", "truck_share"))
+        trucks = f"{volume * share / 100:.6g}"
+    except InputError:  # one of them is not given
         trucks = ""
     return (
         *(bridge[name] for name in ("record", "built", "lanes_under", "traffic")),
