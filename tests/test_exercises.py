@@ -355,7 +355,7 @@ def test_progress_ends_with_the_right_answer_or_after_three_wrong_ones(given):
 def desk(tmp_path, monkeypatch):
     """A folder of one's own, with nothing answered yet."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(work, "_KEPT", {})
+    work.kept_work.cache_clear()
     return tmp_path
 
 

@@ -88,7 +88,7 @@ def test_voila_shows_widgets_and_a_page_of_the_notebook_shows_stills():
 @pytest.fixture
 def desk(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(work, "_KEPT", {})
+    work.kept_work.cache_clear()
 
 
 @pytest.fixture

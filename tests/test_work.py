@@ -31,14 +31,14 @@ from pierimpact.units import DIMENSIONS
 def desk(tmp_path, monkeypatch):
     """A folder of one's own, with nothing answered yet."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(work, "_KEPT", {})
+    work.kept_work.cache_clear()
     return tmp_path
 
 
 @pytest.fixture
-def reopened(desk, monkeypatch):
+def reopened(desk):
     """Forget what is in memory, as a new kernel does."""
-    return lambda: monkeypatch.setattr(work, "_KEPT", {})
+    return work.kept_work.cache_clear
 
 
 def right(question):

@@ -5,6 +5,7 @@ import os
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -261,12 +262,10 @@ def _write(path: Path, text: str) -> None:
         new.unlink(missing_ok=True)
 
 
-_KEPT: dict[Path, KeptWork] = {}
+#: The work on a lesson in a folder, made once.
+kept_work = cache(KeptWork)
 
 
 def work_on(name: str) -> KeptWork:
     """Return the work on a lesson in this notebook: one for all of its cells."""
-    path = Path.cwd() / file_name(name)
-    if path not in _KEPT:
-        _KEPT[path] = KeptWork(name, path.parent)
-    return _KEPT[path]
+    return kept_work(name, Path.cwd())
