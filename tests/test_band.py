@@ -200,6 +200,27 @@ def test_a_beam_counts_as_its_one_degree_of_freedom(band):
     assert found.governing == pytest.approx(band.governing[:16], rel=1e-9)
 
 
+@settings(max_examples=20, deadline=None)
+@given(
+    piers=st.lists(
+        st.builds(
+            EquivalentPier,
+            mass=st.floats(3e3, 100e3),
+            stiffness=st.floats(50e6, 6e9),
+            damping_ratio=st.floats(0.0, 0.2),
+            yield_reaction=st.one_of(st.just(math.inf), st.floats(5e5, 1e7)),
+        ),
+        min_size=2,
+        max_size=2,
+    )
+)
+def test_a_band_on_another_pier_is_the_band_of_that_pier(piers):
+    bands = [reaction_band(TRUCK, pier, SPEED, size=8) for pier in piers]
+    for band, other, pier in zip(bands, bands[::-1], piers[::-1], strict=True):
+        for name, reactions in band.on(pier)._asdict().items():
+            assert np.array_equal(reactions, getattr(other, name), equal_nan=True)
+
+
 def test_collisions_without_cargo_contact_are_told_apart(band):
     missing = np.isnan(band.cargo)
     assert 0.0 < np.mean(missing) < 0.1

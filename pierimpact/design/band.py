@@ -138,6 +138,7 @@ class ReactionBand:
                 pier_mass=pier.mass * same,
                 pier_stiffness=pier.stiffness * same,
                 pier_damping=pier.damping * same,
+                yield_reaction=pier.yield_reaction * same if pier.yields else None,
             )
         )
 
