@@ -283,6 +283,7 @@ def test_within_the_domain_there_is_no_warning():
             "stiffness of the pier 8000 MN/m is outside the studied 50 to 6000 MN/m",
         ),
         ({"damping_ratio": 0.1}, "damping ratio of the pier 10 % is outside the studied 2 to 7 %"),
+        ({"yield_reaction": 3e6}, "yield reaction 3 MN is of a pier that yields"),
     ],
 )
 def test_warnings_name_value_and_range(changes, sentence):

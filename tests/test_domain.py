@@ -92,3 +92,11 @@ def test_a_bound_met_but_for_round_off_is_met():
         "speed at first touch 110.1 km/h is outside the studied 50 to 110 km/h: the design "
         "formulas were not checked there",
     )
+
+
+def test_a_pier_that_yields_warns():
+    pier = EquivalentPier(mass=8e3, stiffness=284e6, yield_reaction=2.5e6)
+    parameters = Collision(load_truck("single-unit-8t"), pier, 20.0).parameters
+    (warning,) = domain.warnings(parameters)
+    assert warning.startswith("yield reaction 2.5 MN is of a pier that yields: ")
+    assert domain.warnings(parameters._replace(yield_reaction=math.inf)) == ()

@@ -82,13 +82,22 @@ def outside(parameters: Parameters) -> tuple[Outside, ...]:
 
 
 def warnings(parameters: Parameters) -> tuple[str, ...]:
-    """Return a sentence for each value of one collision that is outside the studied domain."""
-    return tuple(
+    """Return a sentence for each value of one collision that is outside the studied domain.
+
+    And one for a pier that yields, for the piers of the domain are elastic.
+    """
+    sentences = tuple(
         f"{SYMBOLS[name].meaning} {value / size:.4g} {unit} is outside the studied {low:g} to "
         f"{high:g} {unit}: the design formulas were not checked there"
         for name, value, _, _ in outside(parameters)
         for low, high, unit, size in [DOMAIN[name]]
     )
+    if parameters.yield_reaction is not None and np.isfinite(parameters.yield_reaction):
+        sentences += (
+            f"{SYMBOLS['Ry'].meaning} {parameters.yield_reaction / 1e6:.4g} MN is of a pier that "
+            "yields: the design formulas are for elastic piers, the full model takes the yielding",
+        )
+    return sentences
 
 
 def sample(size: int, seed: int) -> Parameters:

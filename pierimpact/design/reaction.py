@@ -147,7 +147,7 @@ def design_reaction(
     Parameters
     ----------
     truck, pier, speed
-        As in `Collision`.
+        As in `Collision`; a pier that yields counts as elastic, with a warning.
     level : {"short", "long"}, optional
         Level of the procedure: the method to follow by hand, or the one to see why. "hand" and
         "refined" are other names of the two.
