@@ -2,12 +2,20 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from generated_columns import round_column
 
-from pierimpact import EquivalentPier, load_truck, peak_reactions, reaction_band, simulate
+from pierimpact import (
+    Collision,
+    EquivalentPier,
+    load_truck,
+    peak_reactions,
+    reaction_band,
+    simulate,
+)
 from pierimpact.checks import InputError
 from pierimpact.collision.averages import largest_average_force
 from pierimpact.collision.contact_forces import contact_forces
@@ -42,15 +50,23 @@ def collisions():
     return trucks, mass, stiffness, ratio, drawn.speed * random.uniform(0.1, 1.2, COUNT)
 
 
+def one_by_one(trucks, *numbers):
+    """The same as collisions."""
+    return [
+        Collision(truck, EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=ratio), speed)
+        for truck, mass, stiffness, ratio, speed in zip(trucks, *numbers, strict=True)
+    ]
+
+
 def test_they_are_those_of_the_histories(collisions):
-    peaks, forces = contact_forces(*collisions, WINDOW)
+    each = one_by_one(*collisions)
+    peaks, forces = contact_forces(each, [WINDOW, 0.01])
     # `peak_reactions` passes over cycles whose forces are wanted here: the same but for round-off.
     np.testing.assert_allclose(peaks.governing, peak_reactions(*collisions).governing, rtol=1e-12)
-    for i, (truck, mass, stiffness, ratio, speed) in enumerate(zip(*collisions, strict=True)):
-        pier = EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=ratio)
-        history = simulate(truck, pier, speed)
-        average = largest_average_force(history, WINDOW).force
-        assert forces.average[i] == pytest.approx(average, rel=1e-4)
+    for i, own in enumerate(each):
+        history = simulate(own.truck, own.pier, own.speed)
+        averages = [largest_average_force(history, window).force for window in (WINDOW, 0.01)]
+        assert forces.averages[:, i] == pytest.approx(averages, rel=1e-5)
         # Its samples miss a maximum by 0.2 % at most.
         assert forces.largest[i] == pytest.approx(1.001 * history.contact_force.max(), rel=2e-3)
         for short in (1e-4, 0.002):
@@ -73,32 +89,50 @@ def test_they_are_the_largest_of_the_force_itself_where_friction_on_the_pier_tur
     impulse = np.concatenate(([0.0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(time))))
     starts = time[time <= time[-1] - WINDOW]
     average = (np.interp(starts + WINDOW, time, impulse) - impulse[: len(starts)]).max() / WINDOW
-    _, many = contact_forces(truck, [mass], pier.stiffness, 0.05, speed, WINDOW)
-    assert largest_average_force(history, WINDOW).force == pytest.approx(average, rel=1e-4)
-    assert many.average == pytest.approx(average, rel=2e-4)
+    _, found = contact_forces([Collision(truck, pier, speed)], [WINDOW])
+    of_history = largest_average_force(history, WINDOW).force
+    assert of_history == pytest.approx(average, rel=1e-4)
+    assert found.averages[0] == pytest.approx(of_history, rel=1e-5)
     assert history.contact_force.max() == pytest.approx(force.max(), rel=2e-3)
-    assert many.largest == pytest.approx(force.max(), rel=1e-4)
+    assert found.largest == pytest.approx(force.max(), rel=1e-4)
 
 
 def test_the_longer_the_window_the_smaller_the_average_and_none_beyond_the_end(collisions):
-    averages = [contact_forces(*collisions, w)[1].average for w in (1e-4, 0.01, 0.04)]
-    largest = contact_forces(*collisions, 1e-4)[1].largest
-    for longer, shorter in zip([*averages[1:]], averages[:-1], strict=True):
+    each = one_by_one(*collisions)
+    _, forces = contact_forces(each, [1e-4, 0.01, 0.04, 100.0])
+    for shorter, longer in pairwise(forces.averages):
         known = np.isfinite(longer)
         assert np.all(longer[known] <= shorter[known] * (1.0 + 1e-9))
-    assert np.all(averages[0] <= largest * (1.0 + 1e-6))
-    assert np.all(np.isnan(contact_forces(*collisions, 100.0)[1].average))
-    with pytest.raises(InputError, match="window must be positive"):
-        contact_forces(*collisions, 0.0)
+    assert np.all(forces.averages[0] <= forces.largest * (1.0 + 1e-6))
+    assert np.all(np.isnan(forces.averages[3]))
+    assert contact_forces(each, [])[1].averages.shape == (0, COUNT)
+    with pytest.raises(InputError, match="windows must be positive, got 0 at index 1"):
+        contact_forces(each, [0.01, 0.0])
+
+
+def test_those_that_end_before_the_window_are_followed_further_and_those_that_yield(collisions):
+    windows = [0.01, 2.0]
+    each = one_by_one(*collisions)[:5]
+    pier = EquivalentPier(mass=8e3, stiffness=284e6, yield_reaction=1.5e6)
+    each += [replace(own, pier=pier) for own in each]
+    peaks, forces = contact_forces(each, windows, further=True)
+    for i, own in enumerate(each):
+        history = simulate(own.truck, own.pier, own.speed, duration=2.0)
+        averages = [largest_average_force(history, window).force for window in windows]
+        assert forces.averages[:, i] == pytest.approx(averages, rel=1e-9)
+        assert peaks.governing[i] == pytest.approx(history.governing_peak.reaction, rel=1e-9)
+    shorter = contact_forces(each, windows)[1].averages
+    assert np.all(np.isnan(shorter[1]))
+    assert shorter[0] == pytest.approx(forces.averages[0], rel=1e-5)
 
 
 def test_what_vibrates_for_long_is_looked_at_alone():
     # A very light, stiff pier under a heavy truck: thousands of cycles before anything changes.
-    truck = load_truck("single-unit-8t")
-    peaks, forces = contact_forces(truck, [1.0, 8e3], [2e9, 284e6], 1e-6, 22.2, WINDOW)
-    history = simulate(truck, EquivalentPier(mass=8e3, stiffness=284e6, damping_ratio=1e-6), 22.2)
-    average = largest_average_force(history, WINDOW).force
-    assert forces.average[1] == pytest.approx(average, rel=1e-4)
+    trucks = [load_truck("single-unit-8t")] * 2
+    each = one_by_one(trucks, [1.0, 8e3], [2e9, 284e6], [1e-6] * 2, [22.2] * 2)
+    peaks, forces = contact_forces(each, [WINDOW])
+    average = largest_average_force(simulate(trucks[1], each[1].pier, 22.2), WINDOW).force
+    assert forces.averages[0, 1] == pytest.approx(average, rel=1e-5)
     assert math.isfinite(peaks.governing[0])
 
 

@@ -1,9 +1,10 @@
 """Contact forces of many collisions at a time: the largest, and the largest moving average.
 
 The impulse on the pier is what the truck has lost of its momentum, but for the road's friction, so
-that it is known at the ends of every step with its first three rates. Over a step it follows the
-polynomial of the seventh degree through both, which is exact where the forces are constant. Derived
-here; the histories of single collisions (`averages`) have the same from the motion of the pier.
+that it is known at the ends and in the middle of every step with its first three rates. Over a half
+it follows the polynomial of the seventh degree through both, which is exact where the forces are
+constant. Derived here; the histories of single collisions (`averages`) have the same from the
+motion of the pier.
 """
 
 import math
@@ -11,16 +12,17 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from pierimpact.checks import positive
+from pierimpact.checks import one_row, positive_array
 from pierimpact.collision.averages import BESIDE, largest_average_force
-from pierimpact.collision.parameters import Collision, parameter_chunks
+from pierimpact.collision.groups import select
+from pierimpact.collision.parameters import Collision, collision_chunks
 from pierimpact.collision.propagation import Running, propagate_all
-from pierimpact.collision.regimes import LinearMotion, State, accelerations
+from pierimpact.collision.regimes import LinearMotion, Position, State, accelerations
+from pierimpact.collision.series import ARRAYS, TERMS
 from pierimpact.collision.simulate import SHORTEST, PeakReactions, peak_reactions_of, simulate
-from pierimpact.pier.equivalent import EquivalentPier
-from pierimpact.vehicle.truck import Truck
+from pierimpact.collision.stepping import evaluate, expand, longest_step, rates
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -32,16 +34,18 @@ _TO_THE_END = np.linalg.inv([[math.perm(n, rate) for n in range(4, 8)] for rate 
 
 
 class ContactForces(NamedTuple):
-    """Contact forces of many collisions, arrays of shape (n,)."""
+    """Contact forces of n collisions."""
 
-    largest: Array  #: [N]
-    average: Array  #: largest moving average; nan where the collision is over sooner [N]
+    largest: Array  #: shape (n,) [N]
+    #: Largest moving averages by window, shape (windows, n); nan where the collision is over sooner
+    #: [N].
+    averages: Array
 
 
 class _Steps(NamedTuple):
-    """Steps of collisions: when each begins, its length, and the impulse at both ends with rates.
+    """Halves of steps: when each begins, its length, and the impulse at both ends with rates.
 
-    Arrays of shape (n,), ordered by collision and time.
+    A step under constant forces is whole. Arrays of shape (n,), ordered by collision and time.
     """
 
     column: Any  # number of the collision
@@ -68,11 +72,27 @@ class _Recorder:
     ) -> None:
         h = h + 0.0 * running.state.time
         taken = goes_on & (h > SHORTEST)
+        # Forces change under a spring, and with what sticks to the pier. A longer step coasts.
+        held = running.state.stuck & running.parameters.on_pier
+        changes = (motion.slope1 > 0.0) | (motion.slope2 > 0.0) | held
+        halved = taken & changes & (h <= longest_step(motion, ARRAYS))
+        whole = taken & ~halved
+        moving, end = select(motion, whole), select(after.position, whole)
+        self._add(select(running, whole), moving, end, h[whole])
+        own, moving = select(running, halved), select(motion, halved)
+        end, half, start = select(after.position, halved), 0.5 * h[halved], own.state
+        series = expand(moving, rates(moving, start.position), half, TERMS, ARRAYS)
+        middle = evaluate(series, half, np.ones_like(half), ARRAYS)
+        self._add(own, moving, middle, half)
+        later = start._replace(time=start.time + half, position=middle)
+        self._add(own._replace(state=later), moving, end, half)
+
+    def _add(self, running: Running, motion: LinearMotion, after: Position, h: Array) -> None:
+        """Take down steps, or halves of them, that end in the positions `after`."""
         parameters, before = running.parameters, running.state
         m1, m2, on_pier = parameters.engine.mass, parameters.body.mass, parameters.on_pier
         ends = []
-        for state in (before, after):
-            position = state.position
+        for position in (before.position, after):
             F1, F2 = motion.forces(position)
             d1, d2, ap = accelerations(motion, position)
             rate1, rate2 = motion.slope1 * position.u1, motion.slope2 * position.u2
@@ -93,7 +113,7 @@ class _Recorder:
         gained = p1 - p1a + np.where(before.stuck & ~on_pier, at_rest, sliding)
         pairs = (force, after_it[0], rate, after_it[1], bend, after_it[2])
         step = (running.column, before.time, h, gained, *pairs)
-        self._steps.append(_Steps(*(values[taken] for values in step)))
+        self._steps.append(_Steps(*step))
 
     def pass_over(self, column: NDArray[np.int_]) -> None:
         self.passed_over.update(column.tolist())
@@ -106,60 +126,66 @@ class _Recorder:
 
 
 def contact_forces(
-    truck: Truck | Sequence[Truck],
-    pier_mass: ArrayLike,
-    pier_stiffness: ArrayLike,
-    damping_ratio: ArrayLike,
-    speed: ArrayLike,
-    window: float,
+    collisions: Sequence[Collision], windows: Sequence[float], further: bool = False
 ) -> tuple[PeakReactions, ContactForces]:
-    """Return the peak reactions of collisions, as `peak_reactions`, and their contact forces.
+    """Return the peak reactions of n collisions, as `peak_reactions`, and their contact forces.
 
     Memory grows with the number of collisions, by some 10 kB each.
 
     Parameters
     ----------
-    truck, pier_mass, pier_stiffness, damping_ratio, speed
-        As in `peak_reactions`, broadcast to shape (n,).
-    window : float
-        Length of the moving window [s].
+    collisions : sequence of Collision, length n
+        The collisions; a beam counts as its one degree of freedom.
+    windows : sequence of float
+        Lengths of the moving windows [s].
+    further : bool, optional
+        Whether a collision that is over before the longest window is followed on to its end.
 
     Raises
     ------
     InputError
-        As in `peak_reactions`, and when the window is not positive.
+        When a window is not positive.
 
     Warns
     -----
     UnfinishedWarning
         As in `peak_reactions`.
     """
-    window = positive("window", window)
-    given = pier_mass, pier_stiffness, damping_ratio, speed
-    shape, chunks = parameter_chunks(truck, *given)
-    recorder = _Recorder()
-    outcomes = propagate_all((chunk for _, chunk in chunks), shape, recorder=recorder)
-    steps, size = recorder.steps(), math.prod(shape)
-    forces = ContactForces(_largest(steps, size), _largest_average(steps, size, window))
-    numbers = np.broadcast_arrays(np.empty(shape), *given)[1:]
-    for column in recorder.passed_over:
-        own = truck[column] if isinstance(truck, Sequence) else truck
-        mass, stiffness, ratio, velocity = (float(values.flat[column]) for values in numbers)
-        pier = EquivalentPier(mass=mass, stiffness=stiffness, damping_ratio=ratio)
-        largest, average = _of_one(Collision(own, pier, velocity), window)
-        forces.largest[column], forces.average[column] = largest, average
-    return peak_reactions_of(outcomes, pier_stiffness, math.inf), forces
+    lengths = one_row("windows", positive_array("windows", windows)).tolist()
+    size, recorder = len(collisions), _Recorder()
+    chunks = (chunk for _, chunk in collision_chunks(collisions))
+    outcomes = propagate_all(chunks, (size,), recorder=recorder)
+    steps = recorder.steps()
+    averages = [_largest_average(steps, size, window) for window in lengths]
+    forces = ContactForces(_largest(steps, size), np.reshape(averages, (len(lengths), size)))
+    piers = [own.equivalent_pier for own in collisions]
+    # Such a pier may creep, which no polynomial follows.
+    alone = np.array([pier.yields for pier in piers], dtype=bool)
+    if further:
+        alone |= np.isnan(forces.averages).any(axis=0)
+    for column in recorder.passed_over.union(np.flatnonzero(alone).tolist()):
+        duration = max(lengths, default=0.0) if further else 0.0
+        own = _of_one(collisions[column], lengths, duration)
+        forces.largest[column], *forces.averages[:, column] = own
+    given = [pier.stiffness for pier in piers], [pier.yield_reaction for pier in piers]
+    return peak_reactions_of(outcomes, *given), forces
 
 
-def _of_one(collision: Collision, window: float) -> tuple[float, float]:
-    """Return largest contact force and average of a collision, from its history."""
+def _of_one(collision: Collision, windows: Sequence[float], duration: float) -> list[float]:
+    """Return largest contact force and averages of a collision, from its history."""
     try:
-        history = simulate(collision.truck, collision.equivalent_pier, collision.speed)
+        history = simulate(
+            collision.truck, collision.equivalent_pier, collision.speed, duration=duration
+        )
         largest = float(history.contact_force.max())
     except RuntimeError:  # it does not come to an end, or vibrates too often for a history
-        return math.nan, math.nan
-    over = window > history.time[-1]
-    return largest, math.nan if over else largest_average_force(history, window).force
+        return [math.nan] * (1 + len(windows))
+    end = history.time[-1]
+    averages = (
+        largest_average_force(history, window).force if window <= end else math.nan
+        for window in windows
+    )
+    return [largest, *averages]
 
 
 def _largest(steps: _Steps, size: int) -> Array:

@@ -165,6 +165,16 @@ def parameter_chunks(
     return which.shape, chunks()
 
 
+def collision_chunks(collisions: Sequence[Collision]) -> Iterator[tuple[slice, Parameters]]:
+    """Return the parameters of collisions in order, in chunks; piers as one degree of freedom."""
+    numbers = [
+        (pier.mass, pier.stiffness, pier.damping_ratio, own.speed, pier.yield_reaction)
+        for own in collisions
+        for pier in [own.equivalent_pier]
+    ]
+    return parameter_chunks([own.truck for own in collisions], *zip(*numbers, strict=True))[1]
+
+
 def in_chunks(parameters: Parameters) -> Iterator[Parameters]:
     """Return the parameters of many collisions in order, CHUNK at a time."""
     for first in range(0, len(parameters.speed), CHUNK):

@@ -10,10 +10,8 @@ from numpy.typing import NDArray
 
 from pierimpact.certainty import Certainty
 from pierimpact.checks import InputError, known, positive, whole
-from pierimpact.collision.averages import largest_average_force
-from pierimpact.collision.history import CollisionHistory
+from pierimpact.collision.contact_forces import contact_forces
 from pierimpact.collision.parameters import Collision
-from pierimpact.collision.simulate import simulate
 from pierimpact.design.band import LEVELS, reaction_band
 from pierimpact.pier.equivalent import EquivalentPier
 
@@ -126,13 +124,11 @@ def compare(
     size : int, optional
         Number of collisions behind the band of a reaction.
     histories : int, optional
-        Number of collisions behind the band of a contact force, of which each needs a whole
-        history; at most `size`.
+        Number of collisions behind the band of a contact force; at most `size`.
     seed : int, optional
         Seed of the random numbers.
     """
     own, names = measured.collision, list(measured.responses)
-    windows = [_window(name) for name in names]
     count = min(whole("histories", histories, 1), size)
     # The first collisions of a larger sample are those of a smaller one.
     size = size if set(names) & set(_BANDS) else count
@@ -140,9 +136,17 @@ def compare(
     collisions = [own]
     if set(names) - set(_BANDS):
         collisions += [band.sampled(index) for index in range(count)]
-    found = np.array([_forces(collision, names, windows) for collision in collisions])
+    windows = {name: 1e-3 * int(of[1]) for name in names if (of := _AVERAGE.fullmatch(name))}
+    peaks, forces = contact_forces(collisions, list(windows.values()), further=True)
+    found = {
+        "peak_reaction": peaks.governing,
+        "engine_peak": peaks.engine,
+        "cargo_peak": peaks.cargo,
+        "peak_contact_force": forces.largest,
+    } | dict(zip(windows, forces.averages, strict=True))
     compared = []
-    for name, (nominal, *sampled) in zip(names, found.T.tolist(), strict=True):
+    for name in names:
+        nominal, *sampled = found[name].tolist()
         quantiles = (
             band.quantiles(of=_BANDS[name]) if name in _BANDS else np.quantile(sampled, LEVELS)
         )
@@ -171,32 +175,7 @@ def average_bands(
     band : ndarray, shape (3, n)
         What LEVELS of all trucks stay below [N].
     """
-    history = _history(collision, windows)
-    nominal = [largest_average_force(history, window).force for window in windows]
+    nominal = contact_forces([collision], windows, further=True)[1].averages[:, 0]
     band = reaction_band(collision.truck, collision.pier, collision.speed, size=count, seed=seed)
     sampled = band.average_forces(windows, count)
-    return np.array(nominal), np.quantile(sampled, LEVELS, axis=1)
-
-
-def _window(name: str) -> float:
-    average = _AVERAGE.fullmatch(name)
-    return 1e-3 * int(average[1]) if average else 0.0
-
-
-def _forces(collision: Collision, names: Sequence[str], windows: Sequence[float]) -> list[float]:
-    """Return the responses of one collision by the model."""
-    history = _history(collision, windows)
-    peaks = {
-        "peak_reaction": history.governing_peak.reaction,
-        "engine_peak": history.engine_peak.reaction,
-        "cargo_peak": history.cargo_peak.reaction if history.cargo_peak else np.nan,
-        "peak_contact_force": float(history.contact_force.max()),
-    }
-    return [
-        largest_average_force(history, window).force if window else peaks[name]
-        for name, window in zip(names, windows, strict=True)
-    ]
-
-
-def _history(collision: Collision, windows: Sequence[float]) -> CollisionHistory:
-    return simulate(collision.truck, collision.equivalent_pier, collision.speed, max(windows))
+    return nominal, np.quantile(sampled, LEVELS, axis=1)

@@ -22,9 +22,8 @@ from pierimpact.checks import (
     positive_or_infinite_array,
     told_from,
 )
-from pierimpact.collision.averages import largest_average_force
+from pierimpact.collision.contact_forces import contact_forces
 from pierimpact.collision.parameters import Collision
-from pierimpact.collision.simulate import simulate
 from pierimpact.design.codes import (
     JCSS_STIFFNESS,
     CodeForce,
@@ -358,15 +357,15 @@ def compare_methods(
     collisions = [
         Collision(truck.loaded_to(m), pier, v) for v, m in zip(speed.flat, mass.flat, strict=True)
     ]
-    histories = [simulate(each.truck, pier, each.speed, WINDOW) for each in collisions]
+    peaks, forces = contact_forces(collisions, [WINDOW], further=True)
     energies = [_energy_after_blows(each) for each in collisions]
     plateaus = truck.engine_spring.plateau_force + truck.body_spring.plateau_force
     shaped = partial(np.reshape, shape=speed.shape)
     return Comparison(
         speed=speed,
         mass=mass,
-        peak_reaction=shaped([history.governing_peak.reaction for history in histories]),
-        average_force=shaped([largest_average_force(h, WINDOW).force for h in histories]),
+        peak_reaction=shaped(peaks.governing),
+        average_force=shaped(forces.averages[0]),
         hard=elastic_impact(speed, mass),
         plastic=plastic_impact(speed, mass, plateaus, pier.yield_reaction),
         hertz=hertz_impact(speed, mass, contact_stiffness),

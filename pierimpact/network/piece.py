@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pierimpact.checks import InputError
 from pierimpact.collision.contact_forces import contact_forces
 from pierimpact.collision.groups import repeat
-from pierimpact.collision.parameters import parameter_chunks
+from pierimpact.collision.parameters import Collision, collision_chunks
 from pierimpact.collision.propagation import UnfinishedWarning
 from pierimpact.collision.simulate import simulate
 from pierimpact.design.band import LEVELS, quantiles, spreads_of
@@ -210,31 +210,27 @@ def _collide(read: Sequence[_Read]) -> _Impacts:
     if not read:
         none = np.empty(0)
         return _Impacts(none, none, none, none, none, np.empty((0, SIZE)), none)
-    trucks = [own.truck for own in read for _ in own.struck]
-    given = np.array(
-        [
-            (struck.mass, struck.stiffness, own.inputs.damping_ratio, own.inputs.speed)
-            for own in read
-            for struck in own.struck
-        ]
-    ).T
-    mass, stiffness, ratio, speed = given
-    sampled, arriving = np.full((len(trucks), SIZE), math.nan), np.zeros(len(trucks))
+    collisions = [
+        Collision(own.truck, struck.equivalent(own.inputs.damping_ratio), own.inputs.speed)
+        for own in read
+        for struck in own.struck
+    ]
+    size = len(collisions)
+    sampled, arriving = np.full((size, SIZE), math.nan), np.zeros(size)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnfinishedWarning)  # their reactions are nan
-        peaks, forces = contact_forces(trucks, mass, stiffness, ratio, speed, AVERAGE)
+        peaks, forces = contact_forces(collisions, [AVERAGE])
         reaction = peaks.governing
-        for alike in _alike([truck.spread for truck in trucks]):
-            spreads = spreads_of(trucks[alike[0]])
+        for alike in _alike([own.truck.spread for own in collisions]):
+            spreads = spreads_of(collisions[alike[0]].truck)
             if spreads:
-                chosen = [trucks[i] for i in alike]
-                for part, parameters in parameter_chunks(chosen, *given[:, alike])[1]:
+                for part, parameters in collision_chunks([collisions[i] for i in alike]):
                     here = alike[part]
                     found = quick_reactions(parameters, reaction[here], spreads)
                     sampled[here] = found.governing
                     arriving[here] = np.mean(np.isfinite(found.cargo), axis=1)
     return _Impacts(
-        peaks.engine, peaks.cargo, reaction, forces.largest, forces.average, sampled, arriving
+        peaks.engine, peaks.cargo, reaction, forces.largest, forces.averages[0], sampled, arriving
     )
 
 
