@@ -1,8 +1,8 @@
 """The methods that a collision is calculated with elsewhere, beside the full model and the codes.
 
 Hard impact on a spring and its plastic bound, as in the JCSS Probabilistic Model Code; Hertz's
-elastic contact, in which nothing is crushed; and an energy check of the pier's collapse. Each says
-what it takes for granted, on which side it errs, and where it is from.
+elastic contact, in which nothing is crushed; and an energy check of the pier. Each says what it
+takes for granted, on which side it errs, and where it is from.
 """
 
 import math
@@ -19,7 +19,6 @@ from pierimpact.checks import (
     not_negative,
     positive,
     positive_array,
-    positive_or_infinite_array,
     told_from,
 )
 from pierimpact.collision.contact_forces import contact_forces
@@ -93,94 +92,8 @@ ENERGY_CHECK = Method(
 )
 
 
-class ElasticImpact(NamedTuple):
-    """The hard impact of a mass on a spring."""
-
-    force: Array  #: largest force [N]
-    method: Method = HARD_IMPACT
-
-
-class PlasticImpact(NamedTuple):
-    """The impact in which the weaker of vehicle and pier yields."""
-
-    force: Array  #: constant force [N]
-    duration: Array  #: of the force, until the vehicle stops [s]
-    method: Method = PLASTIC_IMPACT
-
-
-class HertzImpact(NamedTuple):
-    """The elastic impact of a rigid striker on a column."""
-
-    force: Array  #: largest force [N]
-    indentation: Array  #: largest approach of striker and column [m]
-    method: Method = HERTZ_IMPACT
-
-
-class CollapseCheck(NamedTuple):
-    """The energy that the blows leave in a pier against what it can take up."""
-
-    ratio: float  #: of the energy to the work; above 1 the pier is displaced further [-]
-    kinetic_energy: float  #: of the pier after the blows [J]
-    work: float  #: of the pier up to its ultimate displacement [J]
-    reaction: float  #: at which the pier has taken up the energy, at most its yield reaction [N]
-    method: Method = ENERGY_CHECK
-
-
 #: The methods of this file.
 METHODS = (HARD_IMPACT, PLASTIC_IMPACT, HERTZ_IMPACT, ENERGY_CHECK)
-
-
-def elastic_impact(
-    speed: ArrayLike, mass: ArrayLike, stiffness: ArrayLike = JCSS_STIFFNESS
-) -> ElasticImpact:
-    """Return the hard impact F = v √(k m) of the JCSS Probabilistic Model Code.
-
-    Parameters
-    ----------
-    speed, mass : array_like
-        Of the vehicle [m/s], [kg].
-    stiffness : array_like, optional
-        Of the vehicle [N/m]; by default the mean of that code.
-
-    Raises
-    ------
-    InputError
-        When a value is not positive.
-    """
-    return ElasticImpact(hard_impact(speed, mass, stiffness))
-
-
-def plastic_impact(
-    speed: ArrayLike, mass: ArrayLike, vehicle_yield: ArrayLike, pier_yield: ArrayLike
-) -> PlasticImpact:
-    """Return the plastic bound of the JCSS Probabilistic Model Code.
-
-    F is the lower of both yield forces and lasts for m v/F.
-
-    Parameters
-    ----------
-    speed, mass : array_like
-        Of the vehicle [m/s], [kg].
-    vehicle_yield, pier_yield : array_like
-        Forces at which vehicle and pier yield; infinite where one of them never does [N].
-
-    Raises
-    ------
-    InputError
-        When a value is not positive, or neither yields.
-    """
-    v, m, vehicle, pier = broadcast(
-        {
-            "speed": positive_array("speed", speed),
-            "mass": positive_array("mass", mass),
-            "vehicle_yield": positive_or_infinite_array("vehicle_yield", vehicle_yield),
-            "pier_yield": positive_or_infinite_array("pier_yield", pier_yield),
-        }
-    )
-    force = np.minimum(vehicle, pier)
-    if np.isinf(force).any():
-        raise InputError("vehicle_yield or pier_yield must be finite, got inf for both")
-    return PlasticImpact(force, m * v / force)
 
 
 def hertz_stiffness(
@@ -235,10 +148,10 @@ def hertz_stiffness(
     return float(effective * factor)
 
 
-def hertz_impact(speed: ArrayLike, mass: ArrayLike, stiffness: float) -> HertzImpact:
-    """Return the impact on Hertz's contact, in which nothing is lost; derived here.
+def hertz_impact(speed: ArrayLike, mass: ArrayLike, stiffness: float) -> Array:
+    """Return the largest force of an impact on Hertz's contact [N]; derived here.
 
-    ½ m v² = (2/5) k_H δ^(5/2) and F = k_H δ^(3/2).
+    Nothing is lost: ½ m v² = (2/5) k_H δ^(5/2) and F = k_H δ^(3/2).
 
     Parameters
     ----------
@@ -255,41 +168,16 @@ def hertz_impact(speed: ArrayLike, mass: ArrayLike, stiffness: float) -> HertzIm
     v, m = _speeds_and_masses(speed, mass)
     stiffness = positive("stiffness", stiffness)
     indentation = (1.25 * m * v**2 / stiffness) ** 0.4
-    return HertzImpact(np.asarray(stiffness * indentation**1.5), np.asarray(indentation))
-
-
-def collapse_check(
-    truck: Truck, pier: EquivalentPier, speed: float, ultimate_displacement: float
-) -> CollapseCheck:
-    """Return the energy check of the pier's collapse; derived here.
-
-    Engine and cargo arrive with what speed their plateaus leave them, v_i² = V² − 2 a_i d_i. Each
-    strikes the free mass m_p once, with the restitution e_i of its spring, and makes it faster by
-    (1 + e_i) m_i/(m_i + m_p) times the relative speed. The energy ½ m_p x_p'² then stands against
-    the work R_y (x_u − ½ R_y/k_p), or ½ k_p x_u² where the pier is still elastic.
-
-    Parameters
-    ----------
-    truck, pier, speed
-        As in `Collision`.
-    ultimate_displacement : float
-        Displacement x_u of the pier that is not to be exceeded; of a ductility capacity, that
-        times R_y/k_p [m].
-
-    Raises
-    ------
-    InputError
-        As in `Collision`, and when the displacement is not positive.
-    """
-    ultimate = positive("ultimate_displacement", ultimate_displacement)
-    collision = Collision(truck, pier, speed)
-    energy, pier = _energy_after_blows(collision), collision.equivalent_pier
-    limit = min(ultimate, pier.yield_reaction / pier.stiffness)
-    work = pier.stiffness * limit * (ultimate - 0.5 * limit)
-    return CollapseCheck(energy / work, energy, work, _reaction_at(energy, pier))
+    return np.asarray(stiffness * indentation**1.5)
 
 
 def _energy_after_blows(collision: Collision) -> float:
+    """Return the kinetic energy that the blows leave in the pier [J]; derived here.
+
+    Engine and cargo arrive with what speed their plateaus leave them, v_i² = V² − 2 a_i d_i. Each
+    strikes the free mass m_p once, with the restitution e_i of its spring, and makes it faster by
+    (1 + e_i) m_i/(m_i + m_p) times the relative speed. The energy is ½ m_p x_p'².
+    """
     v, truck = by_symbol(collision.parameters), collision.truck
     pier_speed, mp = 0.0, v["mp"]
     for i, force, spring in (
@@ -304,6 +192,7 @@ def _energy_after_blows(collision: Collision) -> float:
 
 
 def _reaction_at(energy: float, pier: EquivalentPier) -> float:
+    """Return the reaction at which the pier has taken up an energy, at most its yield reaction."""
     return min(math.sqrt(2.0 * pier.stiffness * energy), pier.yield_reaction)
 
 
@@ -321,9 +210,9 @@ class Comparison(NamedTuple):
     mass: Array  #: of the truck [kg]
     peak_reaction: Array  #: of the full model [N]
     average_force: Array  #: largest average of its contact force over WINDOW [N]
-    hard: ElasticImpact
-    plastic: PlasticImpact
-    hertz: HertzImpact
+    hard: Array  #: largest of the hard impact on the mean stiffness of JCSS [N]
+    plastic: Array  #: the lower of the forces at which truck and pier yield [N]
+    hertz: Array  #: largest of Hertz's contact [N]
     energy_reaction: Array  #: reaction of the energy check [N]
     codes: tuple[CodeForce, ...]  #: whose forces do not depend on speed or mass
 
@@ -366,8 +255,8 @@ def compare_methods(
         mass=mass,
         peak_reaction=shaped(peaks.governing),
         average_force=shaped(forces.averages[0]),
-        hard=elastic_impact(speed, mass),
-        plastic=plastic_impact(speed, mass, plateaus, pier.yield_reaction),
+        hard=hard_impact(speed, mass, JCSS_STIFFNESS),
+        plastic=np.full(speed.shape, min(plateaus, pier.yield_reaction)),
         hertz=hertz_impact(speed, mass, contact_stiffness),
         energy_reaction=shaped([_reaction_at(energy, pier) for energy in energies]),
         codes=(aashto_lrfd(), jtg_d60(), en_1991_1_7_table("motorway")),

@@ -69,10 +69,10 @@ def _lines(found: Comparison) -> list[Line]:
     lines = [
         Line("Full model: peak reaction", found.peak_reaction, {"color": style.BLUE} | thick),
         Line(average, found.average_force, {"color": style.SKY} | thick),
-        Line(HERTZ_IMPACT.name, found.hertz.force, {"color": style.VERMILION}),
+        Line(HERTZ_IMPACT.name, found.hertz, {"color": style.VERMILION}),
         Line(ENERGY_CHECK.name, found.energy_reaction, {"color": style.PURPLE}),
-        Line(f"{HARD_IMPACT.name} (JCSS)", found.hard.force, {"color": style.GREEN}),
-        Line(f"{PLASTIC_IMPACT.name} (JCSS)", found.plastic.force, {"color": style.ORANGE}),
+        Line(f"{HARD_IMPACT.name} (JCSS)", found.hard, {"color": style.GREEN}),
+        Line(f"{PLASTIC_IMPACT.name} (JCSS)", found.plastic, {"color": style.ORANGE}),
     ]
     names: dict[float, list[str]] = {}  # codes of the same force share a line
     for code in found.codes:
