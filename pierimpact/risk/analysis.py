@@ -211,7 +211,7 @@ def risk(
     InputError
         When size or seed is out of range, or there is no truck.
     """
-    size, seed = whole("samples", size, 1), whole("seed", seed, 0)
+    size, seed = whole("size", size, 1), whole("seed", seed, 0)
     fleet = tuple(trucks) if isinstance(trucks, Sequence) else ()
     if not (fleet and all(isinstance(truck, Truck) for truck in fleet)):
         raise InputError(f"trucks must be one or more Trucks, got {brief(trucks)}")

@@ -8,6 +8,7 @@ variance of a mean of n draws in place of that of a Poisson count.
 """
 
 import math
+from functools import cached_property
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -52,36 +53,37 @@ class Exceedance:
         most = np.maximum.accumulate(self.weights)
         # Where no draw exceeds, the next that would counts as much as the largest.
         self._most = np.concatenate((most[:1], most)) if len(most) else none
-        # The shares with the number that exceed, by confidence: of a million they take a second.
-        self._grown: dict[float, Estimate] = {}
 
-    def rate(self, value: ArrayLike, confidence: float = CONFIDENCE) -> Estimate:
+    def rate(self, value: ArrayLike) -> Estimate:
         """Return how often these values are exceeded, with the band [1/s]."""
         count = np.searchsorted(-self.values, -np.asarray(value, dtype=float), side="left")
-        return Estimate(*(self.frequency * part for part in self._shares(count, confidence)))
+        return Estimate(*(self.frequency * part for part in self._shares(count)))
 
-    def value(self, rate: float, confidence: float = CONFIDENCE) -> Estimate:
+    def value(self, rate: float) -> Estimate:
         """Return the value that is exceeded at a rate [1/s], and those where the band has it.
 
         Zero where even that is not exceeded so often; infinite where the draws cannot tell.
         """
         share = positive("rate", rate) / self.frequency
-        if confidence not in self._grown:
-            found = self._shares(np.arange(len(self.values) + 1), confidence)
-            self._grown[confidence] = Estimate(*map(np.maximum.accumulate, found))
         values = np.concatenate(((math.inf,), self.values, (0.0,)))
-        return Estimate(*(values[np.searchsorted(each, share)] for each in self._grown[confidence]))
+        return Estimate(*(values[np.searchsorted(each, share)] for each in self._grown))
 
     @property
     def total(self) -> Estimate:
         """How often there is any event that counts [1/s]."""
         return self.rate(-math.inf)
 
-    def _shares(self, count: NDArray[np.int_], confidence: float) -> Estimate:
+    @cached_property
+    def _grown(self) -> Estimate:
+        """The shares with the number that exceed; of a million they take a second."""
+        found = self._shares(np.arange(len(self.values) + 1))
+        return Estimate(*map(np.maximum.accumulate, found))
+
+    def _shares(self, count: NDArray[np.int_]) -> Estimate:
         """Return the shares of all events in which the largest `count` values are exceeded."""
         from scipy.special import gammainccinv, gammaincinv
 
-        n, tail = self.size, 0.5 * (1.0 - confidence)
+        n, tail = self.size, 0.5 * (1.0 - CONFIDENCE)
         mean = self._sum[count] / n
         variance = np.maximum(self._squares[count] / n - mean**2, 0.0) / n
         one = self._most[count] / n
