@@ -98,11 +98,11 @@ def _fit(options: argparse.Namespace) -> int:
     )
     output, figure = (Path(path) if path else None for path in (options.output, options.figure))
     if figure:
-        drawing = one_of("the ending of --figure", figure.suffix[1:].lower(), ("pdf", "png", "svg"))
         try:
-            from pierimpact.plots.fit import draw_fit
+            from pierimpact.plots.fit import FORMATS, draw_fit
         except ModuleNotFoundError as error:
             return needs("figures", error)
+        drawing = one_of("the ending of --figure", figure.suffix[1:].lower(), FORMATS)
     if output and output.suffix != ".toml":
         raise InputError(f"--output must be the name of a .toml file, got {brief(str(output))}")
     for path in filter(None, (output, figure)):

@@ -10,7 +10,7 @@ from pierimpact.design.fit import TruckFit
 from pierimpact.plots.style import BLUE, GREY, VERMILION, sheet_figure
 from pierimpact.units import unit_of, unit_size
 
-FORMATS = ("svg", "png", "pdf")
+FORMATS = ("pdf", "png", "svg")
 
 _RECORD: Any = {"color": GREY, "linewidth": 0.6}
 _START: Any = {"color": VERMILION, "linewidth": 1.0, "dashes": (5, 2)}
