@@ -99,7 +99,7 @@ def test_its_line_is_right_between_its_points_and_its_limits_are_met():
     cases = anywhere(explorer, 12, 5)
     for values, found in zip(cases, contents_of(explorer, *cases), strict=True):
         scenario = Scenario(**values)
-        given = design_values(scenario.collision.parameters, "short")
+        given = design_values(scenario.history.collision.parameters, "short")
         for number, (chart, row) in enumerate(
             zip(found["charts"], found["table"]["rows"], strict=True), 1
         ):
@@ -122,7 +122,7 @@ def test_its_line_is_right_between_its_points_and_its_limits_are_met():
 
 def test_the_table_has_the_reduction_beside_the_full_model():
     (found,) = contents_of(widgets.reduction(), {})
-    parameters = EXAMPLE.collision.parameters
+    parameters = EXAMPLE.history.collision.parameters
     values = design_values(
         parameters, "short", lambda b, m, e, z: float(exact_amplification(b, m, e, z))
     )
@@ -228,7 +228,7 @@ def test_influences_are_the_packages(speed):
     springs = ("plateau_force", "plateau_length", "stiffness", "unloading_stiffness")
     names = [f"{body}_spring.{name}" for body in ("engine", "body") for name in springs]
     names += ["engine_mass", "body_mass", "friction_force"]
-    changed = one_at_a_time(scenario.collision, dict.fromkeys(names, Uniform.about(0.3)))
+    changed = one_at_a_time(scenario.history.collision, dict.fromkeys(names, Uniform.about(0.3)))
     for chart, (body, peak) in zip(found["charts"], scenario.history.peaks.items(), strict=True):
         assert bool(chart["empty"]) == (peak is None)
         if peak is None:

@@ -81,13 +81,15 @@ def test_the_predictions_come_true():
     assert free.struck_at(1.2).mass > free.mass_per_length * free.height
     assert right["limits"] == "the engine’s mass"
     spreads = dict.fromkeys(QUANTITIES, Uniform.about(0.3))
-    changed = np.abs(one_at_a_time(default.collision, spreads).engine - found.engine).max(axis=1)
+    changed = np.abs(one_at_a_time(default.history.collision, spreads).engine - found.engine).max(
+        axis=1
+    )
     assert QUANTITIES[int(changed.argmax())] == "engine_mass"
 
 
 def test_what_stands_for_an_engine_peak_is_named_as_the_explorer_names_it():
     slow, soft, usual = Scenario(speed=40.0 * KMH), on_a_pier(3.0), Scenario()
-    given = [as_arguments(each.collision) for each in (slow, soft, usual)]
+    given = [as_arguments(each.history.collision) for each in (slow, soft, usual)]
     program = "cases.map((each) => sentencesModule.firstPeak(simulate(...each)))"
     names = in_node(program, given)
     assert names == ["Sheet metal", "Until cargo hits", "Engine’s peak"]
@@ -114,7 +116,7 @@ def opening(explorer):
         f"{pier.stiffness / 1e6:.0f} MN/m",
         f"{pier.mass / 1e3:.3g} t",
     ]
-    facts += [f"{scenario.collision.energy / 1e6:.2f} MJ"]
+    facts += [f"{scenario.history.collision.energy / 1e6:.2f} MJ"]
     return " ".join([*facts, *(f"{peak.reaction / 1e6:.2f} MN" for peak in peaks if peak)])
 
 
@@ -133,7 +135,7 @@ def test_no_answer_stands_above_its_question(lesson):
 def test_collision_claims():
     history, scenario = Scenario().history, Scenario()
     energy, truck = history.energy, scenario.truck
-    whole = scenario.collision.energy
+    whole = scenario.history.collision.energy
     says(
         "collision",
         "Nine tenths of it are dissipated in crushing metal, more than half of it all on",
@@ -198,7 +200,9 @@ def test_the_limit_of_the_impulse_is_that_of_two_free_masses():
 def reduced(scenario):
     """Return the values of the short level with the exact amplification."""
     return design_values(
-        scenario.collision.parameters, "short", lambda *ratios: float(exact_amplification(*ratios))
+        scenario.history.collision.parameters,
+        "short",
+        lambda *ratios: float(exact_amplification(*ratios)),
     )
 
 

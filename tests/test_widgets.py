@@ -9,6 +9,7 @@ import pytest
 from pierimpact import widgets
 from pierimpact.files.case import read_case_file
 from pierimpact.files.trucks import read_truck_file
+from pierimpact.symbols import dimension
 from pierimpact.teaching.browser import variable_data
 from pierimpact.teaching.scenario import REFERENCE, Scenario
 from pierimpact.teaching.scenario_files import case_text, truck_text
@@ -27,7 +28,7 @@ def test_the_values_that_the_browser_sends_are_the_scenarios(name):
     explorer.widget.set_state({"values": {**explorer.widget.values, **values}})
     for each in controls:
         assert getattr(explorer.scenario(), each) == values[each]
-    explorer.reset()
+    explorer.set(**{each: getattr(before, each) for each in controls})
     assert explorer.scenario() == before
 
 
@@ -49,9 +50,8 @@ def test_a_unit_that_may_be_typed_is_the_packages(name):
     variable, data = VARIABLES[name], variable_data(name)
     for unit, size in data["units"].items():
         if unit:
-            assert size == pytest.approx(
-                parse(name, f"1 {unit}", "length") if unit == "m" else variable.parsed(f"1 {unit}")
-            )
+            quantity = "length" if unit == "m" else dimension(variable.symbol)
+            assert size == pytest.approx(parse(name, f"1 {unit}", quantity))
     assert data["units"][data["unit"]] == data["size"]
     assert data["spoken"] or not data["unit"]
 

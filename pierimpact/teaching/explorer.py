@@ -112,10 +112,6 @@ class Explorer:
         """Set values by name, in SI units."""
         self.widget.values = {**self.widget.values, **values}
 
-    def reset(self) -> None:
-        """Go back to the defaults."""
-        self.set(**self._setup["defaults"])
-
     @property
     def still(self) -> str:
         """The explorer as HTML that needs nothing else, not even a kernel."""

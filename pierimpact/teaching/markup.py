@@ -87,7 +87,6 @@ def table(
     rows: Sequence[Sequence[str]],
     *,
     right: Sequence[int] = (),
-    colours: Sequence[str] = (),
 ) -> str:
     """Return a table of plain text, which is scrolled by itself where it is too wide.
 
@@ -99,8 +98,6 @@ def table(
         The rows; the first cell of a row is its heading.
     right : sequence of int, optional
         Columns of numbers, set flush right.
-    colours : sequence of str, optional
-        Colour of the heading of each row.
     """
 
     def cell(kind: str, column: int, words: str, css: str = "") -> str:
@@ -113,11 +110,10 @@ def table(
         )
 
     head = "".join(cell("th", column, words) for column, words in enumerate(heads))
-    styles = [f";color:{colour}" for colour in colours] or [";font-weight:400"] * len(rows)
     body = ""
-    for (first, *others), css in zip(rows, styles, strict=True):
+    for first, *others in rows:
         cells = "".join(cell("td", column, words) for column, words in enumerate(others, 1))
-        body += f"<tr>{cell('th', 0, first, css)}{cells}</tr>"
+        body += f"<tr>{cell('th', 0, first, ';font-weight:400')}{cells}</tr>"
     return (
         '<div class="table" style="overflow-x:auto"><table style="border-collapse:collapse">'
         f'<thead><tr style="color:{MUTED}">{head}</tr></thead><tbody>{body}</tbody></table></div>'

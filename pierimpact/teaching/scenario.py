@@ -7,7 +7,6 @@ from typing import Any
 
 from pierimpact.checks import InputError
 from pierimpact.collision.history import CollisionHistory
-from pierimpact.collision.parameters import Collision
 from pierimpact.collision.simulate import simulate
 from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.files.trucks import load_truck
@@ -131,11 +130,6 @@ class Scenario:
         if mass is not None and frequency is not None:
             return EquivalentPier.from_frequency(mass, frequency, self.damping_ratio)
         return self.column.struck_at(self.impact_height).equivalent(self.damping_ratio)
-
-    @cached_property
-    def collision(self) -> Collision:
-        """The collision."""
-        return Collision(self.truck, self.pier, self.speed)
 
     @cached_property
     def history(self) -> CollisionHistory:

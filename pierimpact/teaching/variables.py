@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from pierimpact.checks import InputError, brief, number
 from pierimpact.symbols import SYMBOLS, Symbol, dimension
 from pierimpact.units import parse
 
@@ -41,26 +40,6 @@ class Variable:
         if not self.unit:
             return 1.0
         return parse(self.symbol.heading, f"1 {self.unit}", dimension(self.symbol))
-
-    def shown(self, value: float) -> str:
-        """Return a value in SI units as it would be typed."""
-        return f"{value / self.size:.4g} {self.unit}".strip()
-
-    def parsed(self, text: str) -> float:
-        """Return a text in SI units; a bare number is in the unit shown.
-
-        Raises
-        ------
-        InputError
-            When the text is not such a value.
-        """
-        try:
-            plain = float(text)
-        except ValueError:
-            if self.unit:
-                return parse(self.symbol.heading, text.strip(), dimension(self.symbol))
-            raise InputError(f"{self.symbol.heading} must be a number, got {brief(text)}") from None
-        return number(self.symbol.heading, plain) * self.size
 
 
 #: The truck's parameters.
