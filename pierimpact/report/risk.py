@@ -16,7 +16,7 @@ from pierimpact.files.traffic import NEEDED, CaseTraffic
 from pierimpact.pier.column import StruckColumn
 from pierimpact.plain_text import WIDTH, text_item, text_table
 from pierimpact.report.calculation import Calculation, calculate
-from pierimpact.risk.analysis import SIZE, Feared, Risk, Run, in_turn, risk
+from pierimpact.risk.analysis import SIZE, Feared, Risk, Run, Strike, in_turn, risk
 from pierimpact.risk.exceedance import Estimate, probability
 from pierimpact.risk.traffic import YEAR, Traffic
 from pierimpact.units import printed, rounded, unit_of, unit_size
@@ -62,21 +62,24 @@ class CaseRisk:
         return yearly(self.risk.reaction.total)
 
     @cached_property
+    def _as_beam(self) -> list[Strike]:
+        """A few of the collisions about the reaction that is exceeded once in 10 000 years."""
+        reaction = float(self.risk.reaction.value(RATES[-1] / YEAR).value)
+        return self.risk.nearest(reaction, _AS_BEAM)
+
+    @cached_property
     def beam(self) -> dict[str, tuple[float, float, float]]:
         """Shear and moment of the column as a beam over those of the reaction as a static force.
 
         The least, the median and the largest of a few of the collisions about the reaction that is
-        exceeded once in 10 000 years, or in 1000 where none is so often; empty where the case asks
-        for static ones.
+        exceeded once in 10 000 years; empty where the case asks for static ones.
         """
         inputs, column = self.case.inputs, self.case.column
-        often = [float(self.risk.reaction.value(rate / YEAR).value) for rate in RATES[::-1]]
-        strikes = self.risk.nearest(next(filter(None, often), 0.0), _AS_BEAM)
-        if inputs.member_forces == "static" or not strikes:
+        if inputs.member_forces == "static" or not self._as_beam:
             return {}
         beam = column.beam(self.struck.impact_height, inputs.damping_ratio)
         ratios = []
-        for truck, speed, reaction in strikes:
+        for truck, speed, reaction in self._as_beam:
             own = simulate(truck, beam, speed).member_forces
             assert own is not None
             static = self.struck.member_forces(reaction)
@@ -154,13 +157,14 @@ class CaseRisk:
             f"The trucks are {' and '.join(statuses)}: {', '.join(self.truck_names)}. A reaction "
             "is as good as their parameters."
         )
+        count = len(self._as_beam)
         for name, (least, middle, most) in self.beam.items():
             found.append(
                 f"The largest {name} is taken as {rounded(self.effects[name], 3)} times the "
                 f"reaction{' in metres' * (name == 'moment')}. The column as a beam has "
                 f"{rounded(middle, 2)} ({rounded(least, 2)}–{rounded(most, 2)}) times the {name} "
-                f"under the reaction as a static force, in {_AS_BEAM} collisions about the "
-                "reaction at 0.0001 a year."
+                f"under the reaction as a static force, in {count} collision{'s' * (count != 1)} "
+                f"about the reaction at {RATES[-1]:g} a year."
             )
         return found
 
