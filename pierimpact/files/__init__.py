@@ -1,1 +1,1 @@
-"""Case files and truck files."""
+"""Files of cases, of trucks and of what else a user gives, read and written."""

@@ -72,11 +72,6 @@ class Case:
     superseded_file: "CaseFile | None" = None
 
     @property
-    def superseded(self) -> "Case | None":
-        """The case that this case supersedes."""
-        return None if self.superseded_file is None else self.superseded_file.case
-
-    @property
     def annexes(self) -> tuple[str, ...]:
         """The annexes to be printed: those asked for, and the changes where there are any."""
         asked = tuple(name for name in self.inputs.annexes if name != "changes")
