@@ -131,6 +131,7 @@ def did_you_mean(word: str, words: Iterable[str]) -> str:
     """Return a question that ends an error: whether the nearest of `words` was meant, if any is."""
     by_lower_case = {name.lower(): name for name in words}
     near = get_close_matches(word.lower(), by_lower_case, n=1)
+    near = near or [name for name in by_lower_case if name.endswith(f"_{word.lower()}")]
     return f"; did you mean {by_lower_case[near[0]]}?" if near else ""
 
 

@@ -24,12 +24,17 @@ _DEFINITIONS = """
     kg = [mass]; g = 0.001 kg; t = 1000 kg; lb = 0.45359237 kg
     s = [time]; ms = 0.001 s; minute = 60 s = min; h = 3600 s; day = 24 h; Hz = 1 / s
     N = kg * m / s ** 2; kN = 1000 N; MN = 1e6 N; GN = 1e9 N
-    lbf = 9.80665 lb * m / s ** 2; kip = 1000 lbf
+    lbf = 9.80665 lb * m / s ** 2; kip = 1000 lbf = k
     rad = [angle]; deg = 0.017453292519943295 rad; vehicle = [vehicle] = veh
     Pa = N / m ** 2; kPa = 1000 Pa; MPa = 1e6 Pa; GPa = 1e9 Pa
-    psi = lbf / inch ** 2; ksi = kip / inch ** 2
-    J = N * m; kJ = 1000 J; MJ = 1e6 J; kph = km / h; mph = mile / h
+    psi = lbf / inch ** 2; ksi = kip / inch ** 2; pcf = lb / ft ** 3; kcf = 1000 pcf
+    J = N * m; kJ = 1000 J; MJ = 1e6 J; kph = km / h; mph = mile / h = MPH
 """
+# Those of them that a value in US units has.
+_OF_US = {
+    *("inch", "in", "ft", "yd", "mile", "mi", "mph", "MPH"),
+    *("lb", "lbf", "kip", "k", "psi", "ksi", "pcf", "kcf"),
+}
 
 
 class Dimension(NamedTuple):
@@ -78,6 +83,7 @@ _NUMBER = re.compile(
 )
 _FACTOR = r"[A-Za-z]+(?:(?:\^|\*\*)?-?[1-9])?"
 _EXPRESSION = re.compile(rf"(?:1?\s*/\s*)?{_FACTOR}(?:\s*[*/ ]\s*{_FACTOR}){{0,5}}")
+_HYPHEN = re.compile(r"(?<=[A-Za-z])-(?=[A-Za-z])")  # of kip-ft
 _MARKS = str.maketrans({"·": "*", "²": "^2", "³": "^3", "⁴": "^4", "⁶": "^6"})
 # Feet and inches as on drawings: 24'-6 1/2", 24 ft 6.5 in, 6', 36", 3 1/2 in.
 _MIXED = r"(\d+(?:\.\d*)?|\.\d+|(?:\d+[\s-]+)?\d+/\d+)"
@@ -138,7 +144,7 @@ def _registry() -> Any:
 def _unit(expression: str) -> tuple[Fraction, dict[str, Fraction]] | None:
     """Return a unit's size in SI units and its dimensions, or None where it is not understood."""
     pint = _pint()
-    expression = expression.translate(_MARKS)
+    expression = _HYPHEN.sub("*", expression.translate(_MARKS))
     if not _EXPRESSION.fullmatch(expression):
         return None
     expression = re.sub(r"([A-Za-z])(-?\d)", r"\1^\2", expression)
@@ -195,6 +201,8 @@ def parse(name: str, value: object, dimension: str) -> float:
             hint = f": {DECIMALS}"
         elif re.match(r"\d", expression):
             hint = ": a number has no spaces in it"
+        elif re.match(r"(short |metric )?ton(s|nes?)?\b", expression):
+            hint = ": one of 2000 lb is typed in lb, one of 1000 kg in t"
         raise InputError(f"{name} must be {words} ({units}), got unknown unit in {shown}{hint}")
     size, dimensions = unit
     if dimensions != _dimensions(dimension):
@@ -206,6 +214,11 @@ def parse(name: str, value: object, dimension: str) -> float:
     if magnitude and math.isfinite(magnitude):  # or exact numbers may have any number of digits
         magnitude = _in_si(Decimal(match[1]), size)
     return _finite(name, magnitude, value)
+
+
+def in_us_units(text: object) -> bool:
+    """Return whether a quantity, as `parse` takes it, is typed in US units."""
+    return not _OF_US.isdisjoint(re.findall(r"[A-Za-z]+", str(text)))
 
 
 def _in_si(number: Decimal | Fraction, size: Fraction) -> float:
@@ -276,7 +289,7 @@ def pattern(dimension: str) -> str:
     )
     power = r"(?:(?:\^|\*\*)?-?[1-9]|[²³⁴⁶])"
     factor = rf"(?:{some}){power}?"
-    more = rf"(?:\s*[*/· ]\s*{factor})"
+    more = rf"(?:(?:\s*[*/· ]\s*|-){factor})"
     units = [rf"(?:{some}){power}", rf"{factor}{more}{{1,5}}", rf"1?\s*/\s*{factor}{more}{{0,5}}"]
     if fitting:
         units.insert(0, one)

@@ -30,6 +30,7 @@ from pierimpact.files.write import temporary_folder
 from pierimpact.report import batch as batch_module
 from pierimpact.report.batch import find_cases, write_reports
 from pierimpact.report.calculation import calculate
+from pierimpact.report.document.blocks import Headline
 from pierimpact.report.results import Results
 from pierimpact.report.summary import Row, no_formula, summary_blocks, summary_csv
 from pierimpact.report.write import OutputError, Report, ReportError, stages
@@ -234,11 +235,11 @@ def test_the_summary_has_the_values_of_the_reports(made):
         low, _, high = outcome.band.quantiles()
         shear, moment = (outcome.demands[name] for name in ("shear", "moment"))
         in_report = [printed(outcome.design_force, "force", "SI").number]
-        assert results[0] == in_report[0]
-        assert results[1] == "–".join(rounded(end / 1e3, 4) for end in (low, high))
+        assert results[3] == in_report[0]
+        assert results[4] == "–".join(rounded(end / 1e3, 4) for end in (low, high))
         for shown, demand, quantity in (
-            (results[2:4], shear, "force"),
-            (results[4:6], moment, "moment"),
+            (results[5:7], shear, "force"),
+            (results[7:9], moment, "moment"),
         ):
             in_report.append(printed(demand.value, quantity, "SI").number)
             assert shown == [in_report[-1], demand.method]
@@ -254,11 +255,11 @@ def test_the_summary_has_the_values_of_the_reports(made):
             assert number in of_the_report
             assert number in sheet
         if outcome.utilisations:
-            for shown in results[6:8]:
+            for shown in results[:2]:
                 assert shown in of_the_report
-            assert results[8] == "exceeded"
+            assert results[2] == "exceeded"
         else:
-            assert results[6:9] == ["—", "—", "—"]
+            assert results[:3] == ["—", "—", "—"]
 
 
 def test_the_summary_leads_to_the_reports(made):
@@ -424,7 +425,7 @@ def test_the_worst_case_stands_first(example):
     strong = re.findall(r'<tr class="strong">\s*<th[^>]*><a[^>]*>([^<]*)</a>', page)
     assert strong[: len(exceeding)] == ranked[: len(exceeding)]
     assert set(strong) == exceeding
-    words = [row[-3] for row in rows_of(page) if len(row) == 13 and row[0] in by_name]
+    words = [row[4] for row in rows_of(page) if len(row) == 13 and row[0] in by_name]
     assert words.count("exceeded") == len(exceeding)
     assert words.count("—") == sum(not result.utilisations for result in by_name.values())
 
@@ -473,7 +474,7 @@ def test_what_holds_but_not_for_every_truck_is_counted_and_ranked_apart(example)
     assert set(strong) == {"over"}
     table = page.partition('id="tab-results"')[2].partition("</table>")[0]
     verdicts = ["exceeded", "exceeded at 95 %", "kept"]
-    assert [found[-3] for found in rows_of(table)[1:]] == verdicts
+    assert [found[3] for found in rows_of(table)[1:]] == verdicts
     in_csv = csv.DictReader(io.StringIO(summary_csv(rows), newline=""))
     assert {line["case"]: line["resistance"] for line in in_csv} == dict(
         zip(("over", "upper", "kept"), verdicts, strict=True)
@@ -490,6 +491,43 @@ def test_the_summary_says_at_95_percent_what_the_sheets_say(tmp_path):
     assert max(results.utilisations.values()) < 1.0 < max(results.upper_utilisations.values())
     (line,) = csv.DictReader(io.StringIO(summary_csv([Row("P", results, [])]), newline=""))
     assert line["resistance"] == "exceeded at 95 %"
+
+
+def test_a_case_that_another_supersedes_is_counted_nowhere(tmp_path, example):
+    names = ["old", "new", "other"]
+    cases = [write_case(tmp_path / f"{name}.yaml") for name in names]
+    supersedes = {"new": "./old.yaml", "other": "elsewhere.yaml"}
+    (tmp_path / "cases").symlink_to(tmp_path)
+    reports = [
+        Report(
+            *(Path(f"{name}.{ending}") for ending in ("ipynb", "html", "pdf")),
+            [],
+            faked(
+                example,
+                supersedes=supersedes.get(name),
+                revision=name,
+                utilisations={"shear": 0.9 if name != "old" else 5.0},
+                upper_utilisations={},
+            ),
+        )
+        for name in names
+    ]
+    cases = [tmp_path / "old.yaml", *(tmp_path / "cases" / case.name for case in cases[1:])]
+    rows = batch_module._rows(cases, reports)
+    assert [row.superseded_by for row in rows] == ["new", "", ""]
+    blocks = summary_blocks(rows)
+    (head,) = (block for block in blocks if isinstance(block, Headline))
+    found = {label: (value.number, remark) for label, value, remark in head.results}
+    assert found["Cases"] == ("2", "2 calculated, 1 superseded left out")
+    assert found["Exceed a resistance"][0] == "0"
+    page = "".join(block._repr_html_() for block in blocks)
+    assert sorted(ranked_in(page)) == ["new", "other"]
+    assert "supersedes it: old (by new)." in page
+    lines = csv.DictReader(io.StringIO(summary_csv(rows), newline=""))
+    assert [line["status"] for line in lines] == ["superseded by new", "calculated", "calculated"]
+    # Two that supersede each other are both there.
+    circle = [row._replace(superseded_by="x") for row in rows[:2]]
+    assert len(ranked_in("".join(block._repr_html_() for block in summary_blocks(circle)))) == 2
 
 
 def test_a_given_value_in_another_unit_has_the_figures_of_the_csv(example):

@@ -87,9 +87,19 @@ def test_json_is_the_results_in_si_units(tmp_path, capsys):
     found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert [one.pop("case") for one in found] == paths
     for path, one in zip(paths, found, strict=True):
-        assert list(one) == list(Results.model_fields)
+        assert list(one) == [*Results.model_fields, "resistance"]
+        assert one["sheet_units"] == calculate(read_case_file(path).case).case.inputs.units
         assert Results(**one) == Results.of(calculate(read_case_file(path).case))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.yaml", "b.yaml"]
+
+
+def test_json_has_a_line_for_a_bad_case_too(tmp_path, capsys):
+    good, bad = write_case(tmp_path / "a.yaml"), write_case(tmp_path / "b.yaml", speed="55 mp")
+    assert cli.main(["check", "--json", str(tmp_path)]) == 2
+    printed = capsys.readouterr()
+    found = [json.loads(line) for line in printed.out.splitlines()]
+    assert [one["case"] for one in found] == [good, bad]
+    assert printed.err == f"pierimpact: {found[1]['error']}\n"
 
 
 def test_several_cases_and_exit_codes(tmp_path, capsys, monkeypatch):

@@ -104,6 +104,15 @@ def test_exactly_what_was_changed_is_listed_and_undone_the_other_way(calculated)
         assert (forth.came, forth.went) == (back.went, back.came)
 
 
+def test_other_units_are_no_other_warnings(calculated):
+    wide = {"column_shape": "rectangular", "column_width": "9 m", "column_depth": "0.8 m"}
+    wide |= {"column_diameter": None, "truck": "tractor-trailer-36t"}
+    old, new = calculated(**wide, units="US"), calculated(**wide, units="SI")
+    found = compare(old, new)
+    assert (found.came, found.went, found.results) == ([], [], [])
+    assert [change.name for change in found.inputs] == ["Units"]
+
+
 def test_results_are_those_of_the_calculations(calculated):
     old, new = (
         calculated(shear_resistance="6 MN"),
@@ -124,6 +133,7 @@ def test_results_are_those_of_the_calculations(calculated):
         ),
     }
     # The pier is the same, and no resistance to moment is given.
+    assert found.pop("Resistance") is None
     assert found == {
         name: pytest.approx(100.0 * (value(new) / value(old) - 1.0), rel=1e-9)
         for name, value in expected.items()

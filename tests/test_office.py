@@ -15,6 +15,8 @@ from pierimpact.checks import InputError
 from pierimpact.files.case import case_from, case_from_notebook, read_case_file
 from pierimpact.files.inputs import ANNEXES, SharedInputs
 from pierimpact.files.office import SHARED_FILE, read_logo
+from pierimpact.report.calculation import calculate
+from pierimpact.report.warnings import warnings_of
 
 # One white pixel.
 PNG = base64.b64decode(
@@ -91,7 +93,7 @@ def test_a_folder_without_shared_values_has_none(tmp_path):
 @pytest.mark.parametrize(
     ("table", "message"),
     [
-        ('ofice = "x"', "'ofice' is not a key of pierimpact.toml; did you mean office?"),
+        ('ofice = "x"', "'ofice' is not a key of pierimpact.toml (office, logo, "),
         ('speed = "80 km/h"', "'speed' is not a key of pierimpact.toml"),
         ("project = 7", "project must be text (in quotes if it is a number), got 7"),
         ('units = "metric"', "units must be 'SI' or 'US', got 'metric'"),
@@ -111,7 +113,8 @@ def test_a_bad_shared_file_is_one_line(tmp_path, table, message):
 
 def test_only_words_and_units_can_be_shared():
     assert set(SharedInputs.model_fields) == {
-        *("office", "logo", "project", "prepared_by", "checked_by", "approved_by", "units"),
+        *("office", "logo", "project", "job_number", "units"),
+        *("prepared_by", "checked_by", "approved_by"),
     }
 
 
@@ -266,14 +269,14 @@ def test_the_case_before(tmp_path, monkeypatch):
     (tmp_path / "old").mkdir()
     before = write_case(tmp_path / "old", "a.yaml", speed="50 mph", supersedes="none.yaml")
     case_file = read_case_file(write_case(tmp_path, supersedes="old/a.yaml"))
-    superseded = case_file.case.superseded
+    superseded = case_file.case.superseded_file.case
     assert superseded.given["speed"] == "50 mph"
-    assert superseded.superseded is None  # one level is read
+    assert superseded.superseded_file is None  # one level is read
     assert case_file.case.superseded_file.name == "a.yaml"
     assert case_file.case.superseded_file.sha256 == hashlib.sha256(before.read_bytes()).hexdigest()
     monkeypatch.chdir(tmp_path)
     assert case_from_notebook(case_file.parameters) == case_file.case
-    assert read_case_file(write_case(tmp_path)).case.superseded is None
+    assert read_case_file(write_case(tmp_path)).case.superseded_file is None
 
 
 def test_a_bad_case_before_is_one_line_with_both_files(tmp_path):
@@ -287,3 +290,31 @@ def test_a_bad_case_before_is_one_line_with_both_files(tmp_path):
     (tmp_path / "folder").mkdir()
     found = one_line_of(write_case(tmp_path, "b.yaml", supersedes="folder"))
     assert found == "b.yaml: supersedes folder: cannot be read: Is a directory"
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({}, []),
+        ({"revision": "A"}, ["a.yaml, which this case supersedes, is of revision A, too."]),
+        ({"element": "Pier 2"}, ["a.yaml, which this case supersedes, is of another element: P1."]),
+        ({"revision": "C"}, ["The table of revisions has no line for revision C, of which it is."]),
+    ],
+)
+def test_revisions_that_do_not_go_together_are_named(tmp_path, changes, words):
+    common = {"element": "P1", "revision": "A"}
+    write_case(tmp_path, "a.yaml", **common)
+    table = [LINE | {"revision": letter} for letter in "AB"]
+    values = common | {"revision": "B", "supersedes": "a.yaml", "revisions": table} | changes
+    found = warnings_of(calculate(read_case_file(write_case(tmp_path, "b.yaml", **values)).case))
+    assert [text for text in found if "revision" in text or "supersedes" in text] == words
+
+
+def test_an_office_shares_its_job_number(tmp_path):
+    (tmp_path / "pierimpact.toml").write_text('job_number = "24-117"\n', "utf-8")
+    assert read_case_file(write_case(tmp_path)).case.inputs.job_number == "24-117"
+    (tmp_path / "pierimpact.toml").write_text("date = 2026-01-31\n", "utf-8")
+    found = one_line_of(tmp_path / "case.yaml")
+    assert found.endswith(
+        "is not a key of pierimpact.toml (" + ", ".join(SharedInputs.model_fields) + ")"
+    )

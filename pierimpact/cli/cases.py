@@ -146,7 +146,7 @@ def _report(options: argparse.Namespace) -> int:
 def _check(options: argparse.Namespace) -> int:
     try:
         from pierimpact.files.find import find_case_files
-        from pierimpact.report.check import check_json, check_text
+        from pierimpact.report.check import check_json, check_text, fault_json
     except ModuleNotFoundError as error:
         return needs("checks", error)
     codes, between = {0}, ""
@@ -155,15 +155,18 @@ def _check(options: argparse.Namespace) -> int:
             text = (check_json if options.json else check_text)(str(path), _calculated(path))
         except InputError as error:
             _log.debug("bad input:", exc_info=True)
-            complain(error)
-            codes.add(2)
+            fault, code = str(error), 2
         except Exception as error:  # the other cases are still calculated
             _log.debug("unforeseen:", exc_info=True)
-            complain(f"{path}: {defect(error)}")
-            codes.add(1)
+            fault, code = f"{path}: {defect(error)}", 1
         else:
             print(between + text, flush=True)
             between = "" if options.json else "\n"
+            continue
+        complain(fault)
+        codes.add(code)
+        if options.json:
+            print(fault_json(str(path), fault), flush=True)
     return 1 if 1 in codes else max(codes)
 
 

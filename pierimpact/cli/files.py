@@ -36,12 +36,14 @@ def add_new(commands: Any) -> None:
     new.add_argument("case", metavar="CASE.yaml", help="file to write")
     new.add_argument(
         "--shape",
+        type=str.lower,
         default="circular",
         help='shape of the section, such as "hollow circular" (default: %(default)s)',
     )
     new.add_argument(
         "--units",
         metavar="SYSTEM",
+        type=str.upper,
         choices=SYSTEMS,
         default="SI",
         help="units of values and sheet: SI or US (default: %(default)s)",

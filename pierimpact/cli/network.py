@@ -51,7 +51,7 @@ def add_portfolio(commands: Any) -> None:
         "low (default: %(default)s)",
     )  # fmt: skip
     portfolio.add_argument(
-        "--units", metavar="SYSTEM", choices=SYSTEMS, default="SI",
+        "--units", metavar="SYSTEM", type=str.upper, choices=SYSTEMS, default="SI",
         help="units of the results: SI or US (default: %(default)s)",
     )  # fmt: skip
     add_workers(portfolio)

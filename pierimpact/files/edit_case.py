@@ -11,7 +11,7 @@ from typing import Any
 import yaml
 
 from pierimpact.checks import InputError
-from pierimpact.files.inputs import KEYS, PHYSICAL_KEYS
+from pierimpact.files.inputs import KEYS, NOT_GIVEN, PHYSICAL_KEYS
 from pierimpact.files.new_case import examples
 from pierimpact.files.yaml_keys import yaml_keys
 from pierimpact.units import SYSTEMS
@@ -20,7 +20,6 @@ from pierimpact.units import SYSTEMS
 TEXTS, MAPPINGS, TEXTS_BY_KEY = ("notes",), ("steps", "revisions"), ("assumed", "sources")
 LINES = (*TEXTS, *MAPPINGS, *TEXTS_BY_KEY)
 _LISTS = ("annexes", "traffic_trucks")  # with commas between their texts
-_NOTHING = "—"  # what is printed where no text is given
 
 
 def typed_in(text: str) -> dict[str, str]:
@@ -38,7 +37,7 @@ def typed_in(text: str) -> dict[str, str]:
     for key, value in yaml_keys(text).items():
         node = entries[key][1] if key in entries else None
         typed = node.value if isinstance(node, yaml.ScalarNode) else _typed(str(key), value)
-        if value is not None and typed != _NOTHING:
+        if value is not None and typed != NOT_GIVEN:
             found[str(key)] = typed.strip()
     return found
 

@@ -19,7 +19,10 @@ from pierimpact.files.limits import possible
 from pierimpact.pier.column import POISSON_RATIO
 from pierimpact.pier.equivalent import DAMPING_RATIO
 from pierimpact.symbols import BY_KEY, dimension
-from pierimpact.units import parse
+from pierimpact.units import in_us_units, parse
+
+#: What is printed where no text is given.
+NOT_GIVEN = "—"
 
 
 def _named(convert: Callable[[str, Any], Any], typed: Any) -> BeforeValidator:
@@ -171,8 +174,8 @@ class RevisionInputs(BaseModel):
 
     revision: Text
     date: Date
-    description: Text = "—"
-    by: Text = "—"
+    description: Text = NOT_GIVEN
+    by: Text = NOT_GIVEN
 
 
 _Item = TypeVar("_Item", StepInputs, RevisionInputs)
@@ -213,21 +216,21 @@ class SharedInputs(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    office: Text = "—"
+    office: Text = NOT_GIVEN
     logo: Text | None = None
-    project: Text = "—"
-    prepared_by: Text = "—"
-    checked_by: Text = "—"
-    approved_by: Text = "—"
+    project: Text = NOT_GIVEN
+    job_number: Text = NOT_GIVEN
+    prepared_by: Text = NOT_GIVEN
+    checked_by: Text = NOT_GIVEN
+    approved_by: Text = NOT_GIVEN
     units: Literal["SI", "US"] = "SI"
 
 
 class Inputs(SharedInputs, SectionInputs):
     """The keys of a case file, in SI units; None where a key is not given and has no default."""
 
-    job_number: Text = "—"
-    element: Text = "—"
-    revision: Text = "—"
+    element: Text = NOT_GIVEN
+    revision: Text = NOT_GIVEN
     date: Date = Field(default_factory=datetime.date.today)
     column_height: Quantity
     elastic_modulus: Quantity | None = None
@@ -309,14 +312,18 @@ def read_inputs(values: Mapping[str, object]) -> Inputs:
     for key in (*inputs.assumed, *inputs.sources):
         if key not in given:
             raise InputError(f"{key} is listed under assumed or sources, but is not given")
-    inputs._strength_in_psi = str(given.get("concrete_strength")).strip().endswith(("psi", "ksi"))
+    inputs._strength_in_psi = in_us_units(given.get("concrete_strength"))
     return inputs
 
 
 def read_shared(values: Mapping[str, object], file: str) -> SharedInputs:
     """Return the inputs that a file gives to the cases beside it; errors as in `read_inputs`."""
     for key in values:
-        known(key, SharedInputs.model_fields, f"a key of {file}")
+        known(
+            key,
+            SharedInputs.model_fields,
+            f"a key of {file} ({', '.join(SharedInputs.model_fields)})",
+        )
     try:
         return SharedInputs(**values)  # type: ignore[arg-type]
     except ValidationError as error:

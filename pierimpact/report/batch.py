@@ -15,7 +15,7 @@ from tqdm import tqdm
 from pierimpact.checks import InputError
 from pierimpact.files.find import find_case_files
 from pierimpact.files.unchanged import put_unchanged, refuse_changed, written_before
-from pierimpact.report.summary import Row, summary_blocks, summary_csv
+from pierimpact.report.summary import Row, current, summary_blocks, summary_csv
 from pierimpact.report.write import (
     Report,
     ReportError,
@@ -118,7 +118,8 @@ def write_reports(
     docx : bool, optional
         Whether to write each sheet, and the summary, as a Word document too.
     binder : bool, optional
-        Whether to write binder.pdf too: contents, summary and all sheets in one, with bookmarks.
+        Whether to write binder.pdf too: contents, summary and all sheets in one, bookmarked, but
+        for those that another of the cases supersedes.
     force : bool, optional
         Whether to replace files that somebody changed since they were written.
     progress : bool, optional
@@ -137,16 +138,16 @@ def write_reports(
     results = _write_all(cases, output_dir, docx, force, progress)
     reports = [result for result in results if isinstance(result, Report)]
     failures = [result for result in results if isinstance(result, Failure)]
-    batch = Batch(reports, failures, None)
+    batch, rows = Batch(reports, failures, None), _rows(cases, results)
     try:
         if len(cases) > 1 and reports:
             try:
-                batch = batch._replace(summary=_write_summary(results, output_dir, docx, force))
+                batch = batch._replace(summary=_write_summary(rows, output_dir, docx, force))
             except Exception as error:
                 batch = batch._replace(summary_failure=f"the summary: {_line(reason_of(error))}")
         if binder and reports:
             try:
-                batch = batch._replace(binder=_write_binder(results, output_dir, force))
+                batch = batch._replace(binder=_write_binder(rows, reports, output_dir, force))
             except Exception as error:
                 batch = batch._replace(binder_failure=f"the binder: {_line(reason_of(error))}")
     except KeyboardInterrupt:
@@ -291,21 +292,28 @@ def _line(error: Exception | str) -> str:
     return " ".join(str(error).encode("utf-8", "backslashreplace").decode().split())
 
 
-def _rows(results: Sequence[Report | Failure]) -> list[Row]:
+def _rows(cases: Sequence[Path], results: Sequence[Report | Failure]) -> list[Row]:
     """Return the rows of the summary."""
+    superseded_by = {
+        os.path.realpath(case.parent / result.results.supersedes): case.stem
+        for case, result in zip(cases, results, strict=True)
+        if isinstance(result, Report) and result.results.supersedes is not None
+    }
     return [
-        Row(result.html.stem, result.results, result.warnings)
+        Row(
+            result.html.stem,
+            result.results,
+            result.warnings,
+            superseded_by.get(os.path.realpath(case), ""),
+        )
         if isinstance(result, Report)
-        else Row(_line(result.case.stem), None, [result.reason])
-        for result in results
+        else Row(_line(case.stem), None, [result.reason])
+        for case, result in zip(cases, results, strict=True)
     ]
 
 
-def _write_summary(
-    results: Sequence[Report | Failure], output_dir: Path, docx: bool, force: bool
-) -> Summary:
+def _write_summary(rows: Sequence[Row], output_dir: Path, docx: bool, force: bool) -> Summary:
     """Write the summary in all its formats, all or none."""
-    rows = _rows(results)
     with folder_for(output_dir) as folder:
         html, pdf, csv, *word = (folder / file for file in _summary_files(docx))
         write_blocks(summary_blocks(rows), (html, pdf, *word))
@@ -313,13 +321,16 @@ def _write_summary(
         return Summary(*put_unchanged((html, pdf, csv, *word), output_dir, force=force))
 
 
-def _write_binder(results: Sequence[Report | Failure], output_dir: Path, force: bool) -> Path:
-    """Write the binder of all sheets, and of the summary where there are more than one."""
+def _write_binder(
+    rows: Sequence[Row], reports: Sequence[Report], output_dir: Path, force: bool
+) -> Path:
+    """Write the binder of all sheets that no other supersedes, several after their summary."""
     bound = import_module("pierimpact.report.binder").bound_reports  # slow to import
-    reports = [result for result in results if isinstance(result, Report)]
+    names = {row.name for row in current(rows)}
+    reports = [report for report in reports if report.html.stem in names]
     with folder_for(output_dir) as folder:
         binder = folder / f"{BINDER}.pdf"
-        summary = summary_blocks(_rows(results))
-        binder.write_bytes(bound(reports, summary, with_summary=len(results) > 1))
+        summary = summary_blocks(rows)
+        binder.write_bytes(bound(reports, summary, with_summary=len(rows) > 1))
         (in_place,) = put_unchanged((binder,), output_dir, force=force)
         return in_place

@@ -28,6 +28,7 @@ from pypdf.generic import (
     TextStringObject,
 )
 
+from pierimpact.files.inputs import NOT_GIVEN
 from pierimpact.report.document.blocks import Block, Notice, TitleBlock
 from pierimpact.report.document.markup import Inline, PageLink
 from pierimpact.report.document.numbered import Table, columns, decimal, wide
@@ -42,6 +43,7 @@ class BoundSheet(NamedTuple):
     case: str  #: name of its files
     notebook: NotebookNode
     pages: int  #: of the document
+    revision: str = ""
 
     @property
     def bookmark(self) -> str:
@@ -66,10 +68,11 @@ def bound_reports(
     stored: Any = nbformat
     sheets = [
         BoundSheet(
-            report.results.element if report.results.element != "—" else report.pdf.stem,
+            report.results.element if report.results.element != NOT_GIVEN else report.pdf.stem,
             report.pdf.stem,
             stored.read(report.notebook, 4),
             pages_of(report.pdf.read_bytes()),
+            report.results.revision,
         )
         for report in reports
     ]
@@ -102,10 +105,10 @@ def bind(title: TitleBlock, sheets: Sequence[BoundSheet], more: Sequence[Block] 
 
     def contents(starts: Sequence[int]) -> NotebookNode:
         rows: list[list[Inline]] = [
-            [PageLink(sheet.title, start), sheet.case, str(start)]
+            [PageLink(sheet.title, start), sheet.case, sheet.revision, str(start)]
             for sheet, start in zip(sheets, starts, strict=True)
         ]
-        heads = columns(wide("Sheet"), "Case", decimal("Page"))
+        heads = columns(wide("Sheet"), "Case", "Revision", decimal("Page"))
         table = Table(label="tab-contents", caption="Contents.", columns=heads, rows=rows)
         return notebook_of([title, table, *more])
 

@@ -58,3 +58,8 @@ def check_json(name: str, calculation: Calculation) -> str:
     `check_text`.
     """
     return json.dumps({"case": name} | Results.of(calculation).model_dump(mode="json"))
+
+
+def fault_json(name: str, fault: str) -> str:
+    """Return why a case has no results as a JSON object in one line: "case" and "error"."""
+    return json.dumps({"case": name, "error": fault})

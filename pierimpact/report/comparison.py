@@ -6,11 +6,11 @@ Values count as equal where they agree to nine figures, so that 1.2 m and 120 cm
 import math
 import re
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from pierimpact.files.case import Case
-from pierimpact.files.inputs import KEYS, Inputs, SectionInputs
+from pierimpact.files.inputs import KEYS, NOT_GIVEN, Inputs, SectionInputs
 from pierimpact.plain_text import text_item, text_table
 from pierimpact.report.calculation import Calculation
 from pierimpact.report.document.blocks import Block, Paragraph
@@ -20,7 +20,6 @@ from pierimpact.report.results import Results
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import compared, printed, rounded
 
-NOT_THERE = "—"
 _RETYPED = "The same value, typed in another way"
 # Keys that are no values of their own, and that which says what this case is compared with.
 _APART = ("assumed", "sources", "notes", "revisions", "steps", "truck", "supersedes")
@@ -125,7 +124,7 @@ def compare(old: Calculation, new: Calculation) -> Comparison:
     """
     system = new.case.inputs.units
     inputs, before = _inputs(new.case), _inputs(old.case)
-    results, previous = Results.of(new), Results.of(old)
+    results, previous = Results.of(new), Results.of(_in_units(old, system))
     return Comparison(
         inputs=list(_changes(before, inputs, system)),
         results=[
@@ -137,6 +136,15 @@ def compare(old: Calculation, new: Calculation) -> Comparison:
         went=_alone(previous.warnings, results.warnings),
         retyped=list(_retyped(before, inputs)),
     )
+
+
+def _in_units(calculation: Calculation, system: str) -> Calculation:
+    """Return a calculation whose words are in other units."""
+    case = calculation.case
+    if case.inputs.units == system:
+        return calculation
+    inputs = case.inputs.model_copy(update={"units": system})
+    return replace(calculation, case=replace(case, inputs=inputs))
 
 
 def _alone(warnings: Sequence[str], others: Sequence[str]) -> list[str]:
@@ -163,9 +171,9 @@ def _changes(
             if not _equal(before, after) or before.notes != after.notes:
                 yield _change(before, after, system)
         elif after:
-            yield Change(after.name, NOT_THERE, _shown(after, after.notes, system))
+            yield Change(after.name, NOT_GIVEN, _shown(after, after.notes, system))
         elif before:
-            yield Change(before.name, _shown(before, before.notes, system), NOT_THERE)
+            yield Change(before.name, _shown(before, before.notes, system), NOT_GIVEN)
 
 
 def _change(before: _Value, after: _Value, system: str) -> Change:
@@ -237,7 +245,7 @@ def _input(
 ) -> _Value:
     """Return the value of a key, which `given` has as it is typed."""
     value, quantity = getattr(inputs, key), BY_KEY[key].quantity if key in BY_KEY else ""
-    if value in (None, (), NOT_THERE):
+    if value in (None, (), NOT_GIVEN):
         return _Value(name, None, notes=(origin,))
     if isinstance(value, tuple):
         value = ", ".join(map(str, value))
@@ -284,6 +292,7 @@ def _results(results: Results) -> dict[Hashable, _Value]:
     """Return the results of a calculation."""
     low, high = results.band or (None, None)
     values = [
+        _Value("Resistance", results.resistance),
         _Value("Nominal impact height", results.impact_height, "length"),
         _Value("Stiffness of the pier", results.pier_stiffness, "stiffness"),
         _Value("Equivalent mass of the pier", results.pier_mass, "mass"),

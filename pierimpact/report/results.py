@@ -3,14 +3,18 @@
 import datetime
 from typing import Any, Self
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, computed_field
 
 from pierimpact.report.calculation import Calculation
+from pierimpact.report.outcome import statement
 from pierimpact.report.warnings import warnings_of
 from pierimpact.symbols import SYMBOLS
 
 #: MIME type of the results in the output of a notebook's cell.
 RESULTS_MIME = "application/vnd.pierimpact.report.results+json"
+
+#: What comes of the resistances of a case.
+KEPT, AT_UPPER, EXCEEDED = "kept", "exceeded at 95 %", "exceeded"
 
 
 class Results(BaseModel):
@@ -28,7 +32,8 @@ class Results(BaseModel):
     checked_by: str
     revision: str
     date: datetime.date
-    units: str  #: of the report, "SI" or "US"
+    supersedes: str | None  #: case file of the revision before, as the case names it
+    sheet_units: str  #: that the sheet prints in, "SI" or "US"
 
     column_shape: str
     column_sizes: tuple[float, ...]  #: diameter, or width and depth, and the like [m]
@@ -62,9 +67,23 @@ class Results(BaseModel):
     #: 25 ms average of the contact force over the force of AASHTO LRFD, which is such an average;
     #: None where the collision is over sooner.
     code_ratio: float | None
+    shear_resistance: float | None
+    moment_resistance: float | None
     utilisations: dict[str, float]  #: by "shear" and "moment", where there is a resistance
     upper_utilisations: dict[str, float]  #: the same at the band's upper end; empty without a band
+    verdict: str  #: in a sentence
     warnings: tuple[str, ...]  #: what is least safe first
+
+    @computed_field  # type: ignore[prop-decorator]
+    @property
+    def resistance(self) -> str | None:
+        """What comes of all resistances together; None where the case gives none."""
+        if not self.utilisations:
+            return None
+        if max(self.utilisations.values()) > 1.0:
+            return EXCEEDED
+        beyond = max(self.upper_utilisations.values(), default=0.0) > 1.0
+        return AT_UPPER if beyond else KEPT
 
     @classmethod
     def of(cls, calculation: Calculation) -> Self:
@@ -74,6 +93,7 @@ class Results(BaseModel):
         shear, moment = (calculation.demands[name] for name in ("shear", "moment"))
         reactions = calculation.reaction_band
         calculated = {
+            "sheet_units": case.inputs.units,
             "column_sizes": tuple(
                 getattr(section, name)
                 for name, symbol in section.dimensions.items()
@@ -102,6 +122,7 @@ class Results(BaseModel):
             "code_ratio": calculation.code_ratio,
             "utilisations": calculation.utilisations,
             "upper_utilisations": calculation.upper_utilisations,
+            "verdict": statement(calculation),
             "warnings": tuple(warnings_of(calculation)),
         }
         return cls.model_validate(case.inputs.model_dump() | calculated)

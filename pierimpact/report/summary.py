@@ -10,7 +10,7 @@ from pierimpact.checks import no_formula
 from pierimpact.report.document.blocks import Block, Headline, Notice, Paragraph, TitleBlock
 from pierimpact.report.document.markup import Code, Inline, Link, Piece, Tex
 from pierimpact.report.document.numbered import Column, Table, columns, wide
-from pierimpact.report.results import Results
+from pierimpact.report.results import AT_UPPER, EXCEEDED, KEPT, Results
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import (
     Printed,
@@ -23,10 +23,11 @@ from pierimpact.units import (
 )
 
 UNKNOWN = "—"  # instead of what a case does not give
-EXCEEDED = "exceeded"
-AT_UPPER = "exceeded at 95 %"  # kept, but not at the upper end of the band
 #: What comes of the resistances of a case, the worst last; the first where it gives none.
-VERDICTS = (None, "kept", AT_UPPER, EXCEEDED)
+STANDINGS = (None, KEPT, AT_UPPER, EXCEEDED)
+
+
+_MOST_BESIDE = 3  # names of cases in a column that does not break: this project's choice
 
 
 class Row(NamedTuple):
@@ -35,6 +36,7 @@ class Row(NamedTuple):
     name: str  #: of its report's files, without ending
     results: Results | None  #: None where it has no report
     remarks: Sequence[str]  #: about its report's files, or why there is none
+    superseded_by: str = ""  #: name of the case, among these, that supersedes it
 
 
 class _Column(NamedTuple):
@@ -88,22 +90,29 @@ class _Column(NamedTuple):
 
 
 CHECKS = ("shear", "moment")
-_OF_THE_TABLE = (
-    _Column("element", "Element", wide=True),
-    _Column("design reaction", "Reaction", "force"),
-    _Column("band", "5 to 95 %", "force"),
+_ELEMENT = _Column("element", "Element", wide=True)
+_CHECKED = (
+    _Column("utilisation in shear", Tex(r"V/V_\mathrm{R}"), "ratio"),
+    _Column("utilisation in moment", Tex(r"M/M_\mathrm{R}"), "ratio"),
+    _Column("resistance", "Resistance"),
+)
+_REACTION = _Column("design reaction", "Reaction", "force")
+_FORCES = (
     _Column("largest shear", "Shear", "force"),
     _Column("shear method", "by"),
     _Column("largest moment", "Moment", "moment"),
     _Column("moment method", "by"),
-    _Column("utilisation in shear", Tex(r"V/V_\mathrm{R}"), "ratio"),
-    _Column("utilisation in moment", Tex(r"M/M_\mathrm{R}"), "ratio"),
-    _Column("resistance", "Resistance"),
-    _Column("code ratio", "Code ratio", "ratio"),
+)
+_CODE_RATIO = _Column("code ratio", "Code ratio", "ratio")
+_OF_THE_TABLE = (
+    *(_ELEMENT, *_CHECKED, _REACTION),
+    _Column("band", "5 to 95 %", "force"),
+    *(*_FORCES, _CODE_RATIO),
     _Column("number of warnings", "Warnings", missing="none"),
 )
 _OF_THE_CASES = (
     _Column("project", "Project", wide=True),
+    _Column("revision", "Revision"),
     _Column("column", "Column", wide=True),
     _Column("truck", "Truck"),
     *(
@@ -119,13 +128,12 @@ _OF_THE_CSV = (
     _Column("case"),
     _Column("status"),
     _Column("job number"),
-    _Column("revision"),
-    _OF_THE_TABLE[0],
+    _ELEMENT,
     *_OF_THE_CASES,
-    *_OF_THE_TABLE[1:2],
+    _REACTION,
     _Column("reaction, 5 % of trucks below", quantity="force"),
     _Column("reaction, 95 % of trucks below", quantity="force"),
-    *_OF_THE_TABLE[3:-1],
+    *(*_FORCES, *_CHECKED, _CODE_RATIO),
     _Column("shear, 95 % of trucks below", quantity="force"),
     _Column("moment, 95 % of trucks below", quantity="moment"),
     *(_Column(f"utilisation in {check} at 95 %", quantity="ratio") for check in CHECKS),
@@ -135,7 +143,12 @@ _OF_THE_CSV = (
 
 
 def summary_blocks(rows: Sequence[Row]) -> list[Block]:
-    """Return the summary sheet of cases, at least one of which is calculated, the worst first."""
+    """Return the summary sheet of cases, at least one of which is calculated, the worst first.
+
+    Those that another supersedes are named, and counted nowhere.
+    """
+    superseded = [row for row in rows if row.superseded_by]
+    rows = current(rows)
     results = _calculated(rows)
     system = _system(results.values())
     ranked = sorted(
@@ -143,7 +156,10 @@ def summary_blocks(rows: Sequence[Row]) -> list[Block]:
         key=lambda row: _weight(results[row.name]),
         reverse=True,
     )
-    blocks = [_title_block(list(results.values()), system), _headline(rows, system)]
+    blocks = [
+        _title_block(list(results.values()), system),
+        _headline(rows, system, len(superseded)),
+    ]
     failures = [row.remarks for row in rows if row.results is None]
     if failures:
         blocks.append(Notice(heading="No report", body=["; ".join(why) for why in failures]))
@@ -151,11 +167,17 @@ def summary_blocks(rows: Sequence[Row]) -> list[Block]:
         _table("tab-results", _RESULTS_CAPTION, ranked, system, _shown(results.values())),
         *_warnings_table(ranked),
     ]
-    shown = _OF_THE_CASES
-    if len({result.project for result in results.values()}) == 1:
-        shown = shown[1:]  # it stands in the title block
+    in_title_block = {
+        key
+        for key in ("project", "revision")
+        if len({getattr(result, key) for result in results.values()}) == 1
+    }
+    shown = [column for column in _OF_THE_CASES if column.name not in in_title_block]
     blocks.append(_table("tab-cases", _CASES_CAPTION, ranked, system, shown))
-    if len({result.units for result in results.values()}) > 1:
+    if superseded:
+        names = ", ".join(f"{row.name} (by {row.superseded_by})" for row in superseded)
+        blocks.append(Paragraph(f"Left out, for another of these cases supersedes it: {names}."))
+    if len({result.sheet_units for result in results.values()}) > 1:
         blocks.append(
             Paragraph("The reports are not all in the same units; this summary is in SI.")
         )
@@ -193,8 +215,8 @@ _CASES_CAPTION = (
 def _weight(result: Results) -> tuple[float, float, float, float]:
     """Return what a case is ranked by, the worst largest."""
     utilisation = max(result.utilisations.values(), default=0.0)
-    verdict = VERDICTS.index(_verdict(result))
-    return verdict, utilisation, result.code_ratio or 0.0, result.design_reaction
+    standing = STANDINGS.index(result.resistance)
+    return standing, utilisation, result.code_ratio or 0.0, result.design_reaction
 
 
 def _shown(results: Iterable[Results]) -> list[_Column]:
@@ -213,10 +235,11 @@ def _warnings_table(ranked: Sequence[Row]) -> Iterator[Block]:
         for text in _warnings(row):
             names.setdefault(text, []).append(row.name)
     if names:
+        long = _MOST_BESIDE < max(map(len, names.values())) < len(ranked)
         yield Table(
             label="tab-warnings",
             caption="Warnings, those of the worst case first, and of each case what is least safe.",
-            columns=columns(wide("Warning"), wide("Cases")),
+            columns=columns(wide("Warning"), wide("Cases") if long else "Cases"),
             rows=[
                 [text, _links(own) if len(own) < max(len(ranked), 2) else "all"]
                 for text, own in names.items()
@@ -239,13 +262,18 @@ def summary_csv(rows: Sequence[Row]) -> str:
     return text.getvalue()
 
 
+def current(rows: Sequence[Row]) -> Sequence[Row]:
+    """Return the rows of cases that no other supersedes; all, where they do so in a circle."""
+    return [row for row in rows if not row.superseded_by] or rows
+
+
 def _calculated(rows: Iterable[Row]) -> dict[str, Results]:
     return {row.name: row.results for row in rows if row.results is not None}
 
 
 def _system(results: Iterable[Results]) -> str:
     """Return the units that all cases print in; SI where they differ."""
-    systems = {result.units for result in results}
+    systems = {result.sheet_units for result in results}
     return systems.pop() if len(systems) == 1 else "SI"
 
 
@@ -275,24 +303,25 @@ def _title_block(results: Sequence[Results], system: str) -> Block:
     )
 
 
-def _headline(rows: Sequence[Row], system: str) -> Block:
+def _headline(rows: Sequence[Row], system: str, superseded: int) -> Block:
     """Return how many cases there are, how many are not as they should be, and the worst."""
+    without = f", {superseded} superseded left out" if superseded else ""
     results = _calculated(rows)
-    verdicts = [_verdict(result) for result in results.values()]
+    standings = [result.resistance for result in results.values()]
     at_upper = {
         name: result.upper_utilisations
         for name, result in results.items()
-        if _verdict(result) == AT_UPPER
+        if result.resistance == AT_UPPER
     }
     worst = _worst({name: result.utilisations for name, result in results.items()})
     warned = sum(bool(_warnings(row)) for row in rows if row.results is not None)
     strongest = max(results, key=lambda name: results[name].design_reaction)
     failed = len(rows) - len(results)
     counts = (
-        ("Cases", len(rows), f"{len(results)} calculated"),
+        ("Cases", len(rows), f"{len(results)} calculated{without}"),
         (
             "Exceed a resistance",
-            verdicts.count(EXCEEDED),
+            standings.count(EXCEEDED),
             f"largest utilisation {worst}" if worst else "no case gives a resistance",
         ),
         *(
@@ -368,23 +397,13 @@ def _values(row: Row, system: str) -> dict[str, Any]:
     warnings = _warnings(row)
     return values | {
         "case": row.name,
-        "status": "calculated",
+        "status": f"superseded by {row.superseded_by}" if row.superseded_by else "calculated",
         "column": column_in_words(result, system),
         "reaction, 5 % of trucks below": low,
         "reaction, 95 % of trucks below": high,
-        "resistance": _verdict(result),
         "number of warnings": len(warnings),
         "warnings": "; ".join(warnings),
     }
-
-
-def _verdict(result: Results) -> str | None:
-    """Return what comes of the resistances that a case gives."""
-    if not result.utilisations:
-        return None
-    if max(result.utilisations.values()) > 1.0:
-        return EXCEEDED
-    return AT_UPPER if max(result.upper_utilisations.values(), default=0.0) > 1.0 else "kept"
 
 
 def column_in_words(result: Results, system: str) -> str:

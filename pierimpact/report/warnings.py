@@ -5,11 +5,12 @@ from collections.abc import Iterator, Sequence
 
 from pierimpact.design.band import LEVELS
 from pierimpact.design.domain import Outside
+from pierimpact.files.inputs import NOT_GIVEN
 from pierimpact.files.plausible import unusual
 from pierimpact.pier.static_forces import TOO_LOW
 from pierimpact.report.calculation import Calculation
 from pierimpact.symbols import BY_KEY, SYMBOLS
-from pierimpact.units import Printed, compared, printed, rounded, stated, unit_size
+from pierimpact.units import Printed, compared, printed, rounded, stated, unit_of, unit_size
 from pierimpact.vehicle.truck import another_truck
 
 #: Width of a truck, which spreads at 45° to either side from the impact down to the ground; a
@@ -21,7 +22,8 @@ def warnings_of(calculation: Calculation) -> list[str]:
     """Return all that limits the results of a case, a sentence or two each.
 
     They are in the order of what they do to safety: what fails; where the method gives too little;
-    where an input is likely wrong or is no evidence; where only a check says less than it could.
+    where an input is likely wrong or is no evidence; where only a check says less than it could;
+    where revisions do not go together.
     """
     return [*_exceeded(calculation), *warnings_beside_verdict(calculation)]
 
@@ -36,6 +38,7 @@ def warnings_beside_verdict(calculation: Calculation) -> list[str]:
         *_unusual(calculation),
         *_unknown(calculation),
         *_unchecked(calculation),
+        *_revisions(calculation),
     ]
 
 
@@ -120,14 +123,19 @@ def _wall(calculation: Calculation) -> Iterator[str]:
     width, engaged = getattr(section, "width", 0.0), TRUCK_WIDTH + 2.0 * height
     if width > engaged:
         wide, part, truck = (
-            str(printed(value, "length", case.inputs.units, given=True))
-            for value in (width, engaged, TRUCK_WIDTH)
+            _about(value, case.inputs.units) for value in (width, engaged, TRUCK_WIDTH)
         )
         yield (
             f"The column is {wide} wide across the travel, and the sheet takes all of it as one "
             f"beam. A truck about {truck} wide engages some {part} at its foot, spread at 45° (a "
             "rule of this project): stiffness and resistances of the full width may be too large."
         )
+
+
+def _about(length: float, system: str) -> str:
+    """Return a length to no more figures than a rule of thumb has."""
+    size = unit_size("length", system)
+    return str(Printed(rounded(length / size, 2), unit_of("length", system)))
 
 
 def _another_truck(calculation: Calculation) -> Iterator[str]:
@@ -148,6 +156,23 @@ def _another_truck(calculation: Calculation) -> Iterator[str]:
 def _unusual(calculation: Calculation) -> Iterator[str]:
     inputs = calculation.case.inputs
     yield from (found.sentence(inputs.units) for found in unusual(inputs))
+
+
+def _revisions(calculation: Calculation) -> Iterator[str]:
+    """Yield where the revisions of a case do not go together."""
+    case = calculation.case
+    inputs, earlier = case.inputs, case.superseded_file
+    listed = [line.revision for line in inputs.revisions]
+    if listed and inputs.revision not in listed:
+        yield f"The table of revisions has no line for revision {inputs.revision}, of which it is."
+    if earlier is None:
+        return
+    before = earlier.case.inputs
+    this = f"{earlier.name}, which this case supersedes, is"
+    if before.revision == inputs.revision != NOT_GIVEN:
+        yield f"{this} of revision {before.revision}, too."
+    if before.element != inputs.element:
+        yield f"{this} of another element: {before.element}."
 
 
 def _unknown(calculation: Calculation) -> Iterator[str]:

@@ -41,8 +41,12 @@ _COMPATIBLE = (  # with Word of 2013 and after; or else Word lays it out as that
     '<w:compat><w:compatSetting w:name="compatibilityMode" w:val="15" '
     'w:uri="http://schemas.microsoft.com/office/word"/></w:compat>'
 )
-_INSTEAD = {  # of what pandoc writes: equations start at the left, and drawings at the margin
+# Of what pandoc writes: equations start at the left, drawings at the margin, and no row of a table
+# is parted by the end of a page, which LibreOffice takes from no style.
+_INSTEAD = {
     '<m:jc m:val="center" />': '<m:jc m:val="left" />',
+    "<w:tr><w:tc>": "<w:tr><w:trPr><w:cantSplit /></w:trPr><w:tc>",
+    "<w:trPr><w:tblHeader": "<w:trPr><w:cantSplit /><w:tblHeader",
     "<wp:inline>": '<wp:inline distT="0" distB="0" distL="0" distR="0">',
 }
 _PAPER = {"a4": (11906, 16838), "us-letter": (12240, 15840)}  # twentieths of a point

@@ -105,13 +105,18 @@ class Figure(Block):
 def align_decimals(cells: Sequence[Inline]) -> list[Inline]:
     """Pad numbers on the right so that, set flush right, their decimal points stand in line.
 
+    Powers of ten and ranges stand as they are.
+
     Figure and punctuation spaces are as wide as a figure and a point.
     """
-    decimals = [len(cell.partition(".")[2]) if isinstance(cell, str) else 0 for cell in cells]
+    decimals = [
+        len(cell.partition(".")[2]) if isinstance(cell, str) and "–" not in cell else 0
+        for cell in cells
+    ]
     longest = max(decimals, default=0)
     padded: list[Inline] = []
     for cell, count in zip(cells, decimals, strict=True):
-        if isinstance(cell, str) and cell[-1:].isdigit() and "×" not in cell:
+        if isinstance(cell, str) and cell[-1:].isdigit() and not {"×", "–"} & set(cell):
             point = "\u2008" if longest and not count else ""
             padded.append(cell + point + "\u2007" * (longest - count))
         else:
