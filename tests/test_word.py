@@ -59,6 +59,11 @@ def test_equations_are_native_and_numbered_with_their_names(made):
     assert positions == {"left"}
 
 
+def test_no_row_is_parted_by_the_end_of_a_page(made):
+    for row in made.word.all("body", "w:tr"):
+        assert row.find(f"{name('w:trPr')}/{name('w:cantSplit')}") is not None
+
+
 def test_tables_are_tables(made):
     tables = made.of("Table")
     found = [

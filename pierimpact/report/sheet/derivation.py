@@ -6,7 +6,7 @@ import numpy as np
 
 from pierimpact.pier.equivalent import equivalent_mass
 from pierimpact.pier.unit_force import BY_ENDS
-from pierimpact.report.document.blocks import Block
+from pierimpact.report.document.blocks import Block, Paragraph
 from pierimpact.report.document.markup import Ref, Tex, in_tex, inline, number_in_tex
 from pierimpact.report.document.numbered import Equation, Steps, Table, columns, decimal
 from pierimpact.report.sheet.equivalent_pier import PierSection
@@ -15,7 +15,7 @@ from pierimpact.units import printed
 
 
 class Derivation(PierSection):
-    """How the values of a uniform column come about; any other has but its section here.
+    """How the values of a uniform column come about; any other has its relations here.
 
     Examples
     --------
@@ -59,9 +59,43 @@ class Derivation(PierSection):
             source="by numerical integration",
         )
 
-    def unit_forces(self) -> Steps | None:
-        """Return support forces and moments under a unit force at the impact height."""
-        return self._part(0)
+    def unit_forces(self) -> Block:
+        """Return support forces and moments under a unit force at the impact height.
+
+        Where the column is not uniform, the relations that lead from its base to its top.
+        """
+        return self._part(0) or Paragraph(
+            (
+                "Closed formulas stand for a column of one section between rigid ends. This one is "
+                "followed part by part, with the values of ",
+                Ref("Table", "tab-parts"),
+                " and of its springs: with ",
+                Tex("s"),
+                " upward from the lower end of a part, where the values have the index 0, the "
+                "shear is constant and ",
+                Tex(r"M = M_0 + V s"),
+                ", ",
+                Tex(r"\theta = \theta_0 - (M_0 s + V s^2/2) / EI"),
+                ", ",
+                Tex(
+                    r"x = x_0 + \theta_0 s - (M_0 s^2/2 + V s^3/6) / EI + V s / \kappa GA",
+                ),
+                ". A support leaves two of deflection ",
+                Tex("x"),
+                ", rotation ",
+                Tex(r"\theta"),
+                ", shear ",
+                Tex("V"),
+                " and moment ",
+                Tex("M"),
+                " unknown; at the impact the shear drops by the force, and the others pass on. "
+                "These are four equations for four unknowns, solved as they stand. To check them, "
+                "begin at the base with what ",
+                Ref("Table", "tab-unit-force"),
+                " gives and its support allows, and walk up: what arrives at the top must be what "
+                "its support allows.",
+            )
+        )
 
     def stiffness(self) -> Steps | None:
         """Return the deflection under the unit force, of flexure and shear."""
