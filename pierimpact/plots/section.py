@@ -49,7 +49,8 @@ def draw_section(axes: Axes, section: Section, unit: float, system: str) -> list
     if "b" in values:
         half, beside = 0.5 * values["b"], 0.5 * depth + unit
         draw_dimension(axes, (beside, -half), (beside, half), "")
-        labels.insert(0, Label(axes, named("b", values["b"], system), (beside, 0.0), (1.0, 0.0)))
+        words, turned = named("b", values["b"], system), {"rotation": 90.0}
+        labels.insert(0, Label(axes, words, (beside, 0.0), (1.0, 0.0), turned))
     if isinstance(section, RegularPolygonSection) and section.sides % 2:
         inscribed = 0.5 * section.across_flats
         dotted: Any = {"fill": False, "edgecolor": MUTED, "linestyle": ":", "linewidth": 0.8}
