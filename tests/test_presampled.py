@@ -13,6 +13,7 @@ from scipy import stats
 from traffic_of_jcss import jcss_traffic
 
 from pierimpact import EquivalentPier, load_truck
+from pierimpact.risk import exceedance
 from pierimpact.risk.analysis import risk
 from pierimpact.risk.laws import Lognormal
 from pierimpact.risk.traffic import YEAR, jcss_speed
@@ -76,12 +77,13 @@ def test_weighed_they_are_the_hits_of_the_traffic(distance):
     assert float(hits.high) > outcome(scenario)[0] / YEAR * 0.97
 
 
-def test_weighed_they_exceed_as_often_as_collisions_of_that_traffic():
+def test_weighed_they_exceed_as_often_as_collisions_of_that_traffic(monkeypatch):
+    monkeypatch.setattr(exceedance, "CONFIDENCE", 0.999)
     for name, frequency in presampled.PIERS.items():
         scenario = Scenario(risk_pier=name)
         traffic = jcss_traffic(scenario.traffic_volume * scenario.truck_share, 6.0)
         own = risk(traffic, FLEET, EquivalentPier.from_frequency(8e3, frequency), 1000, 5)
-        rate = own.reaction.rate(scenario.resistance, 0.999)
+        rate = own.reaction.rate(scenario.resistance)
         above = outcome(scenario)[1] / YEAR
         assert 0.95 * float(rate.low) < above < 1.05 * float(rate.high)
 
@@ -102,13 +104,14 @@ def test_no_truck_of_the_fastest_traffic_is_faster_than_those_of_the_file():
 
 
 @pytest.mark.parametrize("resistance", [5e6, 10e6, 15e6])
-def test_of_fast_traffic_they_exceed_as_often(resistance):
+def test_of_fast_traffic_they_exceed_as_often(resistance, monkeypatch):
     """However large the resistance: with more than 130 km/h beside the rest."""
+    monkeypatch.setattr(exceedance, "CONFIDENCE", 0.999)
     speed = replace(jcss_speed(), law=Lognormal.of(FASTEST.mean_speed, 10.0 / 3.6))
     trucks = FASTEST.traffic_volume * FASTEST.truck_share
     traffic = jcss_traffic(trucks, FASTEST.distance_from_road, speed=speed)
     own = risk(traffic, FLEET, EquivalentPier.from_frequency(8e3, 30.0), 4000, 5)
-    rate = own.reaction.rate(resistance, 0.999)
+    rate = own.reaction.rate(resistance)
     above = outcome(replace(FASTEST, resistance=resistance))[1] / YEAR
     assert 0.8 * float(rate.low) < above < 1.25 * float(rate.high)
 

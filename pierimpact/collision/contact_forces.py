@@ -37,8 +37,8 @@ class ContactForces(NamedTuple):
     """Contact forces of n collisions."""
 
     largest: Array  #: shape (n,) [N]
-    #: Largest moving averages by window, shape (windows, n); nan where the collision is over sooner
-    #: [N].
+    #: Largest moving averages by window, shape (windows, n) [N]; a collision that is over before
+    #: the longest window is followed on to its end.
     averages: Array
 
 
@@ -126,7 +126,7 @@ class _Recorder:
 
 
 def contact_forces(
-    collisions: Sequence[Collision], windows: Sequence[float], further: bool = False
+    collisions: Sequence[Collision], windows: Sequence[float]
 ) -> tuple[PeakReactions, ContactForces]:
     """Return the peak reactions of n collisions, as `peak_reactions`, and their contact forces.
 
@@ -138,8 +138,6 @@ def contact_forces(
         The collisions; a beam counts as its one degree of freedom.
     windows : sequence of float
         Lengths of the moving windows [s].
-    further : bool, optional
-        Whether a collision that is over before the longest window is followed on to its end.
 
     Raises
     ------
@@ -161,31 +159,23 @@ def contact_forces(
     piers = [own.equivalent_pier for own in collisions]
     # Such a pier may creep, which no polynomial follows.
     alone = np.array([pier.yields for pier in piers], dtype=bool)
-    if further:
-        alone |= np.isnan(forces.averages).any(axis=0)
+    alone |= np.isnan(forces.averages).any(axis=0)
     for column in recorder.passed_over.union(np.flatnonzero(alone).tolist()):
-        duration = max(lengths, default=0.0) if further else 0.0
-        own = _of_one(collisions[column], lengths, duration)
+        own = _of_one(collisions[column], lengths)
         forces.largest[column], *forces.averages[:, column] = own
     given = [pier.stiffness for pier in piers], [pier.yield_reaction for pier in piers]
     return peak_reactions_of(outcomes, *given), forces
 
 
-def _of_one(collision: Collision, windows: Sequence[float], duration: float) -> list[float]:
+def _of_one(collision: Collision, windows: Sequence[float]) -> list[float]:
     """Return largest contact force and averages of a collision, from its history."""
+    longest = max(windows, default=0.0)
     try:
-        history = simulate(
-            collision.truck, collision.equivalent_pier, collision.speed, duration=duration
-        )
+        history = simulate(collision.truck, collision.equivalent_pier, collision.speed, longest)
         largest = float(history.contact_force.max())
     except RuntimeError:  # it does not come to an end, or vibrates too often for a history
         return [math.nan] * (1 + len(windows))
-    end = history.time[-1]
-    averages = (
-        largest_average_force(history, window).force if window <= end else math.nan
-        for window in windows
-    )
-    return [largest, *averages]
+    return [largest, *(largest_average_force(history, window).force for window in windows)]
 
 
 def _largest(steps: _Steps, size: int) -> Array:

@@ -143,10 +143,9 @@ class ReactionBand:
     def average_forces(self, windows: Sequence[float], count: int = 128) -> Array:
         """Return the largest moving averages of the contact force in the first `count` collisions.
 
-        For notebooks/tti-column.yaml, with all
-        parameters ±30 %, 128 collisions give median and 95 % value of the averages over
-        10, 25 and 50 ms with a standard error of 1 to 2 %, their 5 % value with one of 3, 10 and
-        13 %: there the cargo hardly arrives.
+        For notebooks/tti-column.yaml, with all parameters ±30 %, 128 collisions give median and
+        95 % value of the averages over 10, 25 and 50 ms with a standard error of 1 to 2 %, their
+        5 % value with one of 3, 10 and 13 %: there the cargo hardly arrives.
 
         Parameters
         ----------
@@ -167,7 +166,7 @@ class ReactionBand:
         """
         count = min(whole("count", count, 1), len(self.engine))
         collisions = [self.sampled(index) for index in range(count)]
-        return contact_forces(collisions, windows, further=True)[1].averages
+        return contact_forces(collisions, windows)[1].averages
 
 
 def reaction_band(

@@ -137,7 +137,7 @@ def compare(
     if set(names) - set(_BANDS):
         collisions += [band.sampled(index) for index in range(count)]
     windows = {name: 1e-3 * int(of[1]) for name in names if (of := _AVERAGE.fullmatch(name))}
-    peaks, forces = contact_forces(collisions, list(windows.values()), further=True)
+    peaks, forces = contact_forces(collisions, list(windows.values()))
     found = {
         "peak_reaction": peaks.governing,
         "engine_peak": peaks.engine,
@@ -175,7 +175,7 @@ def average_bands(
     band : ndarray, shape (3, n)
         What LEVELS of all trucks stay below [N].
     """
-    nominal = contact_forces([collision], windows, further=True)[1].averages[:, 0]
+    nominal = contact_forces([collision], windows)[1].averages[:, 0]
     band = reaction_band(collision.truck, collision.pier, collision.speed, size=count, seed=seed)
     sampled = band.average_forces(windows, count)
     return nominal, np.quantile(sampled, LEVELS, axis=1)

@@ -246,7 +246,7 @@ def compare_methods(
     collisions = [
         Collision(truck.loaded_to(m), pier, v) for v, m in zip(speed.flat, mass.flat, strict=True)
     ]
-    peaks, forces = contact_forces(collisions, [WINDOW], further=True)
+    peaks, forces = contact_forces(collisions, [WINDOW])
     energies = [_energy_after_blows(each) for each in collisions]
     plateaus = truck.engine_spring.plateau_force + truck.body_spring.plateau_force
     shaped = partial(np.reshape, shape=speed.shape)

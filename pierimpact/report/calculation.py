@@ -340,19 +340,14 @@ class Calculation:
         return simulate(self.case.truck, yields[most], self.case.inputs.speed)
 
     @cached_property
-    def average_forces(self) -> dict[float, AverageForce | None]:
-        """The largest moving averages by window [s]; None where the collision is over sooner."""
-        end = self.history.time[-1]
-        return {w: largest_average_force(self.history, w) if w <= end else None for w in WINDOWS}
+    def average_forces(self) -> dict[float, AverageForce]:
+        """The largest moving averages by window [s]."""
+        return {window: largest_average_force(self.history, window) for window in WINDOWS}
 
     @property
-    def code_ratio(self) -> float | None:
-        """The 25 ms average over the force of AASHTO LRFD, which is such an average [-].
-
-        None where the collision is over sooner.
-        """
-        average = self.average_forces[AVERAGE]
-        return None if average is None else average.force / aashto_lrfd().along.value
+    def code_ratio(self) -> float:
+        """The 25 ms average over the force of AASHTO LRFD, which is such an average [-]."""
+        return self.average_forces[AVERAGE].force / aashto_lrfd().along.value
 
     @cached_property
     def code_effects(self) -> list[CodeEffect]:
@@ -461,11 +456,11 @@ def calculate(case: Case) -> Calculation:
 
 
 def _with_reversal(case: Case, pier: EquivalentPier) -> CollisionHistory:
-    """Return the collision, followed until the pier has swung back as far as it will.
+    """Return the collision, followed for all windows and until the pier has swung back.
 
     Without damping it may throw a truck about for ever, of which a part is enough.
     """
-    history = simulate(case.truck, pier, case.inputs.speed)
+    history = simulate(case.truck, pier, case.inputs.speed, max(WINDOWS))
     for _ in range(_EXTENSIONS):
         if history.has_swung_back:
             break

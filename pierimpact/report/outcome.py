@@ -93,16 +93,14 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
         larger = ", of each truck the larger" if demand.asked == "larger" else ""
         in_band = f"; 5 to 95 %: {ends[0].number}–{ends[1]}{larger}" if ends else ""
         yield FirstResult(f"Largest {name}", value, f"{METHODS[demand.method]}{in_band}{of_static}")
-    average = result.average_forces[AVERAGE]
-    if average is not None:
-        code = aashto_lrfd(system)
-        yield FirstResult(
-            f"Largest {shown(AVERAGE, 'time', given=True)} average",
-            shown(average.force, "force"),
-            f"of the contact force: {rounded(result.code_ratio or 0.0, 3)} times the "
-            f"{shown(code.along.value, 'force', given=True)} of {code.code}, which is "
-            f"such an average{_under_code(result)}",
-        )
+    code = aashto_lrfd(system)
+    yield FirstResult(
+        f"Largest {shown(AVERAGE, 'time', given=True)} average",
+        shown(result.average_forces[AVERAGE].force, "force"),
+        f"of the contact force: {rounded(result.code_ratio, 3)} times the "
+        f"{shown(code.along.value, 'force', given=True)} of {code.code}, which is such an "
+        f"average{_under_code(result)}",
+    )
     yield FirstResult(
         "Pier frequency",
         shown(pier.frequency, "frequency"),

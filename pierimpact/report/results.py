@@ -64,9 +64,8 @@ class Results(BaseModel):
     moment_method: str
     #: Largest "shear" and "moment" that 5 and 95 % of trucks stay below; empty without a band.
     member_bands: dict[str, tuple[float, float]]
-    #: 25 ms average of the contact force over the force of AASHTO LRFD, which is such an average;
-    #: None where the collision is over sooner.
-    code_ratio: float | None
+    #: 25 ms average of the contact force over the force of AASHTO LRFD, which is such an average.
+    code_ratio: float
     shear_resistance: float | None
     moment_resistance: float | None
     utilisations: dict[str, float]  #: by "shear" and "moment", where there is a resistance

@@ -216,7 +216,7 @@ def _weight(result: Results) -> tuple[float, float, float, float]:
     """Return what a case is ranked by, the worst largest."""
     utilisation = max(result.utilisations.values(), default=0.0)
     standing = STANDINGS.index(result.resistance)
-    return standing, utilisation, result.code_ratio or 0.0, result.design_reaction
+    return standing, utilisation, result.code_ratio, result.design_reaction
 
 
 def _shown(results: Iterable[Results]) -> list[_Column]:
@@ -335,11 +335,9 @@ def _headline(rows: Sequence[Row], system: str, superseded: int) -> Block:
     entries = [(label, Printed(str(count), ""), remark) for label, count, remark in counts]
     reaction = printed(results[strongest].design_reaction, "force", system)
     entries.append(("Largest design reaction", reaction, strongest))
-    codes = [(result.code_ratio, name) for name, result in results.items() if result.code_ratio]
-    if codes:
-        code, name = max(codes)
-        remark = f"{name}; 25 ms average over AASHTO LRFD"
-        entries.append(("Largest code ratio", Printed(rounded(code, 3), ""), remark))
+    code, name = max((result.code_ratio, name) for name, result in results.items())
+    remark = f"{name}; 25 ms average over AASHTO LRFD"
+    entries.append(("Largest code ratio", Printed(rounded(code, 3), ""), remark))
     return Headline(results=entries)
 
 

@@ -135,7 +135,7 @@ def _wall(calculation: Calculation) -> Iterator[str]:
 def _about(length: float, system: str) -> str:
     """Return a length to no more figures than a rule of thumb has."""
     size = unit_size("length", system)
-    return str(Printed(rounded(length / size, 2), unit_of("length", system)))
+    return str(Printed(f"{float(f'{length / size:.2g}'):g}", unit_of("length", system)))
 
 
 def _another_truck(calculation: Calculation) -> Iterator[str]:

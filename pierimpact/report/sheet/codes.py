@@ -29,11 +29,7 @@ class Codes(Section):
     def bars(self) -> Block:
         """Return the forces of codes beside the averages of the contact force and the reaction."""
         result = self.calculation
-        averages = {
-            window: average.force
-            for window, average in result.average_forces.items()
-            if average is not None
-        }
+        averages = {window: own.force for window, own in result.average_forces.items()}
         words = ", ".join(
             f"{self.shown(force, 'force')} over {self.shown(window, 'time', given=True)}"
             for window, force in averages.items()
@@ -46,7 +42,7 @@ class Codes(Section):
             caption="Forces of codes along the travel, the largest averages of the contact force, "
             "and the design reaction. That of AASHTO LRFD was taken from a 25 ms average. Hatched: "
             "neither read in the code nor cited by the source paper.",
-            alt=f"Largest averages of the contact force: {words or 'none'}. The reaction is "
+            alt=f"Largest averages of the contact force: {words}. The reaction is "
             f"{self.shown(result.design_force, 'force')}.",
             svg=draw_code_bars(
                 [effect.code for effect in result.code_effects],

@@ -223,11 +223,8 @@ class FullModel(Section):
         rows = [["At one instant", self.number(force, "force"), self.number(time, "time")]]
         for window, average in self.calculation.average_forces.items():
             name = f"Over {self.shown(window, 'time', given=True)}"
-            if average is None:  # the collision is over sooner
-                rows.append([name, "none", ""])
-            else:
-                start = self.number(average.start, "time")
-                rows.append([name, self.number(average.force, "force"), start])
+            start = self.number(average.start, "time")
+            rows.append([name, self.number(average.force, "force"), start])
         return Table(
             label="tab-averages",
             caption="Largest contact force between truck and pier by the full model, and its "
