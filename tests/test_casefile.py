@@ -304,6 +304,10 @@ def test_the_table_of_inputs_says_that_an_end_is_on_springs():
         ({"impact_height": "0 m"}, "impact_height must be above 0 m"),
         ({"impact_height": "automatic"}, "impact_height must be a length, a number with a unit"),
         ({"impact_height": "auto", "column_height": "1.2 m"}, "below the height 1.2 m"),
+        (
+            {"impact_height": "25 ft", "column_height": "18 ft 7 in"},
+            "got 7.62 m; typed: impact_height '25 ft', column_height '18 ft 7 in'",
+        ),
         ({"damping_ratio": "5 %"}, "damping_ratio must be a plain number without unit, got '5 %'"),
         ({"damping_ratio": 1.0}, "damping_ratio must be below 1, got 1"),
         ({"damping_ratio": -0.05}, "damping_ratio must not be negative, got -0.05"),

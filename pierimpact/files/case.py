@@ -34,7 +34,7 @@ from pierimpact.pier.sections import (
     Section,
 )
 from pierimpact.symbols import SYMBOLS
-from pierimpact.units import unit_size
+from pierimpact.units import in_us_units, unit_size
 from pierimpact.vehicle.truck import Truck
 
 #: Bytes of a case file; a longer file is none of ours: this project's choice.
@@ -207,12 +207,18 @@ def _case(
             case.column.struck_at(impact_height)
         except InputError as error:
             if inputs.impact_height == "auto":
-                raise InputError(
-                    f"impact_height may not be auto here: by the rule, {error}"
-                ) from None
-            raise
+                error = InputError(f"impact_height may not be auto here: by the rule, {error}")
+            raise InputError(f"{error}{_as_typed(values)}") from None
     _refuse_slivers(case)
     return case
+
+
+def _as_typed(values: Mapping[str, object]) -> str:
+    """Return heights as they were typed, to end an error in metres, where they are in others."""
+    typed = {key: values.get(key) for key in ("impact_height", "column_height")}
+    if not any(map(in_us_units, typed.values())):
+        return ""
+    return "; typed: " + ", ".join(f"{key} {brief(value)}" for key, value in typed.items())
 
 
 def _refuse_slivers(case: Case) -> None:
