@@ -297,8 +297,16 @@ def test_a_tractor_trailer_warns():
     assert warning.startswith("total mass of the truck 36 t is outside the studied 6 to 20 t:")
 
 
-def test_the_level_to_follow_by_hand_is_the_default():
+@pytest.mark.parametrize(("old", "level"), [("hand", "short"), ("refined", "long")])
+def test_levels_have_their_old_names_as_well(old, level):
+    one, other = (design_reaction(TRUCK, PIER, SPEED, name) for name in (old, level))
+    assert one == other
+    assert one.level == level
     assert design_reaction(TRUCK, PIER, SPEED).level == "short"
+    assert (
+        design_reactions(TRUCK, 8e3, 284e6, 0.05, SPEED, old).engine
+        == design_reactions(TRUCK, 8e3, 284e6, 0.05, SPEED, level).engine
+    )
 
 
 @pytest.mark.parametrize(

@@ -32,12 +32,6 @@ def truck_about(seed, share=0.3):
     )
 
 
-def errors(fit):
-    """Standard errors of the parameters that the records show."""
-    found = {name: estimate.standard_error for name, estimate in fit.estimates.items()}
-    return {name: error for name, error in found.items() if error is not None}
-
-
 def record_of(truck, noise=0.05, rate=5e3, duration=0.2, seed=1, **given):
     """What a truck leaves in a record with noise of a share of the peak."""
     time = np.arange(0.0, duration, 1.0 / rate)
@@ -80,7 +74,7 @@ def test_error_bars_cover_the_truth(noisy):
     truth, fit = noisy
     off = [
         abs(parameter(fit.truck, name) - parameter(truth, name)) / error
-        for name, error in errors(fit).items()
+        for name, error in fit.standard_errors.items()
     ]
     assert len(off) >= 6
     assert np.mean(np.array(off) <= 2.0) > 0.7
@@ -117,7 +111,7 @@ def test_standard_error_of_a_plateau_is_that_of_a_mean():
     fit = fit_records([record], START, parameters=[f"{BODY}.plateau_force"], spread=10.0)
     level = START.engine_spring.plateau_force + START.body_spring.plateau_force
     expected = 0.1 * level / math.sqrt(len(record.time))
-    assert errors(fit)[f"{BODY}.plateau_force"] == pytest.approx(expected, rel=0.15)
+    assert fit.standard_errors[f"{BODY}.plateau_force"] == pytest.approx(expected, rel=0.15)
 
 
 def test_standard_errors_fall_with_the_number_of_records():
@@ -125,7 +119,9 @@ def test_standard_errors_fall_with_the_number_of_records():
     record = record_of(START)
     one, four = (fit_records([record] * count, START, parameters=names) for count in (1, 4))
     for name in names:
-        assert errors(four)[name] == pytest.approx(0.5 * errors(one)[name], rel=0.05)
+        assert four.standard_errors[name] == pytest.approx(
+            0.5 * one.standard_errors[name], rel=0.05
+        )
 
 
 def test_filtered_noise_counts_by_its_power():
@@ -133,7 +129,7 @@ def test_filtered_noise_counts_by_its_power():
     name = f"{BODY}.plateau_force"
     raw = record_of(START)
     one, other = (
-        errors(fit_records([record], START, parameters=[name]))[name]
+        fit_records([record], START, parameters=[name]).standard_errors[name]
         for record in (raw, raw.low_passed(200.0))
     )
     assert other == pytest.approx(one, rel=0.35)
@@ -165,7 +161,7 @@ def test_the_information_of_two_records_adds_up():
     name = f"{BODY}.stiffness"
     records = [record_of(START, speed=speed, seed=int(speed)) for speed in (18.0, 25.0)]
     both, *single = (
-        errors(fit_records(few, START, parameters=[name]))[name]
+        fit_records(few, START, parameters=[name]).standard_errors[name]
         for few in (records, records[:1], records[1:])
     )
     assert both**-2 == pytest.approx(sum(error**-2 for error in single), rel=0.1)
@@ -200,7 +196,7 @@ def test_a_filter_longer_than_the_first_spike_hides_the_engines_stiffness():
     for name in ("stiffness", "unloading_stiffness"):
         assert "8.33 ms" in fit.not_identified[f"{ENGINE}.{name}"]
         assert getattr(fit.truck.engine_spring, name) == getattr(START.engine_spring, name)
-        assert f"{ENGINE}.{name}" not in errors(fit)
+        assert f"{ENGINE}.{name}" not in fit.standard_errors
     assert f"{BODY}.plateau_length" not in fit.not_identified
 
 
@@ -219,7 +215,7 @@ def test_without_cargo_contact_the_cargo_does_not_show():
     start = truck_about(9, share=0.15)
     names = [f"{BODY}.{name}" for name in ("plateau_force", "plateau_length", "stiffness")]
     fit = fit_records([record], start, parameters=names)
-    assert f"{BODY}.plateau_force" in errors(fit)
+    assert f"{BODY}.plateau_force" in fit.standard_errors
     for name in ("stiffness", "plateau_length"):
         assert fit.not_identified[f"{BODY}.{name}"].startswith("the cargo does not reach the pier")
         assert getattr(fit.truck.body_spring, name) == getattr(start.body_spring, name)
@@ -285,7 +281,7 @@ def test_standard_errors_are_a_third_of_the_accuracy_or_less():
     for accuracy in (0.02, 0.05, 0.2):
         fit = fit_records([record], START, parameters=names, accuracy=accuracy)
         for name in names:
-            share = errors(fit)[name] / parameter(fit.truck, name)
+            share = fit.standard_errors[name] / parameter(fit.truck, name)
             assert (name in fit.not_identified) == (share > accuracy / 3.0)
 
 

@@ -121,6 +121,12 @@ class TruckFit:
         return replace(truck, name=f"{self.start.name}-fitted", source=source)
 
     @property
+    def standard_errors(self) -> dict[str, float]:
+        """Standard errors of the parameters that the records show, in SI units."""
+        errors = {name: estimate.standard_error for name, estimate in self.estimates.items()}
+        return {name: error for name, error in errors.items() if error is not None}
+
+    @property
     def not_identified(self) -> dict[str, str]:
         """Parameters that do not count as identified, with the reasons.
 

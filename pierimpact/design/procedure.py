@@ -353,6 +353,8 @@ def long(
 
 
 LEVELS = {"short": short, "long": long}
+#: Names by which the levels were known before, which scripts of others have.
+ALIASES = {"hand": "short", "refined": "long"}
 
 
 def design_values(
@@ -367,7 +369,7 @@ def design_values(
     parameters : Parameters
         Floats, or arrays of one shape.
     level : {"short", "long"}, optional
-        Level of the procedure.
+        Level of the procedure; "hand" and "refined" are other names of the two.
     spectrum : callable, optional
         Amplification S of β, μ, e and ζ to use in place of the closed form.
 
@@ -393,7 +395,8 @@ def calculation_of(level: str) -> Calculation:
     InputError
         When there is no such level.
     """
-    return LEVELS[one_of("level", level, tuple(LEVELS))]
+    name = ALIASES.get(level, level) if isinstance(level, str) else level
+    return LEVELS[one_of("level", name, tuple(LEVELS))]
 
 
 def by_symbol(parameters: Parameters) -> Values:

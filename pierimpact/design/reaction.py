@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pierimpact.collision.parameters import Collision, parameter_chunks
 from pierimpact.design import domain
-from pierimpact.design.procedure import LEVELS, calculation_of, design_values
+from pierimpact.design.procedure import ALIASES, LEVELS, calculation_of, design_values
 from pierimpact.handcalc import Calculation, Step
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.truck import Truck
@@ -149,7 +149,8 @@ def design_reaction(
     truck, pier, speed
         As in `Collision`; a pier that yields counts as elastic, with a warning.
     level : {"short", "long"}, optional
-        Level of the procedure: the method to follow by hand, or the one to see why.
+        Level of the procedure: the method to follow by hand, or the one to see why. "hand" and
+        "refined" are other names of the two.
 
     Raises
     ------
@@ -169,7 +170,7 @@ def design_reaction(
     collision = Collision(truck, pier, speed)
     found = design_values(collision.parameters, level)
     values = {name: float(value) for name, value in found.items()}
-    return DesignReaction(level=level, collision=collision, values=values)
+    return DesignReaction(level=ALIASES.get(level, level), collision=collision, values=values)
 
 
 def design_reactions(
