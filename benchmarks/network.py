@@ -22,9 +22,10 @@ from tqdm import tqdm
 from pierimpact import load_truck
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import Parameters
+from pierimpact.collision.reactions import full_model
 from pierimpact.design import domain
 from pierimpact.design.band import sampled_factors, spreads_of, with_factors
-from pierimpact.design.study import full_model, with_truck
+from pierimpact.design.study import with_truck
 from pierimpact.files.piers import read_pier_table
 from pierimpact.network.files import write_portfolio
 from pierimpact.network.piece import Task, calculate_beams

@@ -3,8 +3,8 @@
 import numpy as np
 
 from pierimpact.collision.groups import repeat
+from pierimpact.collision.reactions import Reactions, full_model
 from pierimpact.design.band import with_factors
-from pierimpact.design.study import Reactions, full_model
 
 
 def one_at_a_time(collision, spreads):

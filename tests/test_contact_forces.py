@@ -20,10 +20,11 @@ from pierimpact.checks import InputError
 from pierimpact.collision.averages import largest_average_force
 from pierimpact.collision.contact_forces import contact_forces
 from pierimpact.collision.parameters import parameter_chunks
+from pierimpact.collision.reactions import full_model
 from pierimpact.design import domain
 from pierimpact.design.band import spreads_of
 from pierimpact.design.quick_band import SIZE, quick_reactions, sampled_trucks
-from pierimpact.design.study import full_model, predictions
+from pierimpact.design.reaction import predictions
 from pierimpact.pier.equivalent import damping_coefficient
 
 COUNT = 60

@@ -21,8 +21,10 @@ from pierimpact import (
 )
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import parameter_chunks
+from pierimpact.collision.reactions import full_model
 from pierimpact.design import domain, study
 from pierimpact.design.procedure import LEVELS, design_values
+from pierimpact.design.reaction import predictions
 from pierimpact.design.reduction import exact_amplification
 
 TRUCK = load_truck("single-unit-8t")
@@ -39,7 +41,7 @@ SIZE, SEED = 1500, 1
 def sample():
     case = domain.sample(SIZE, SEED)
     assert study.SEED != SEED
-    return case, study.full_model(case)
+    return case, full_model(case)
 
 
 TARGETS = {
@@ -53,7 +55,7 @@ TARGETS = {
 def test_targets_over_the_domain(level, sample):
     case, exact = sample
     low, high, variation, percentile = TARGETS[level]
-    found = study.assessment(case, exact, study.predictions(case, level))
+    found = study.assessment(case, exact, predictions(case, level))
     overall = found["governing"]["all"]
     assert overall["cases"] == SIZE
     assert low <= overall["mean"] <= high
@@ -75,8 +77,8 @@ def test_targets_with_friction_on_the_pier_and_with_none(level, sample):
         case._replace(on_pier=np.ones(SIZE, dtype=bool)),
         case._replace(friction_force=np.zeros(SIZE)),
     ):
-        exact = study.full_model(changed)
-        predicted = study.predictions(changed, level)
+        exact = full_model(changed)
+        predicted = predictions(changed, level)
         ratios = study.summary(predicted.governing / exact.governing)
         assert low <= ratios["mean"] <= high
         assert ratios["coefficient of variation"] <= variation
@@ -86,7 +88,7 @@ def test_targets_with_friction_on_the_pier_and_with_none(level, sample):
 @pytest.mark.parametrize("level", LEVELS)
 def test_contacts_are_those_of_the_full_model(level, sample):
     case, exact = sample
-    predicted = study.predictions(case, level)
+    predicted = predictions(case, level)
     differ = np.isnan(predicted.cargo) != np.isnan(exact.cargo)
     assert differ.mean() < 0.005
     # Where they differ, hardly any speed is left.
@@ -124,7 +126,7 @@ def test_speeds_at_contact_are_those_of_the_histories():
 def test_heavier_trucks_stay_within_the_targets(level):
     # Outside the domain, but nothing in the formulas gives way.
     case = study.with_truck(domain.sample(600, 2), TRUCK.loaded_to(36e3))
-    exact, predicted = study.full_model(case), study.predictions(case, level)
+    exact, predicted = full_model(case), predictions(case, level)
     ratios = study.summary(predicted.governing / exact.governing)
     assert 0.98 <= ratios["mean"] <= 1.10
     assert ratios["1st percentile"] >= 0.9
@@ -136,7 +138,7 @@ def test_a_truck_whose_cargo_follows_at_once_is_not_for_these_formulas():
     design = design_reaction(short, PIER, SPEED)
     assert any("before the engine has separated" in warning for warning in design.warnings)
     case = study.with_truck(domain.sample(300, 2), short)
-    exact, predicted = study.full_model(case), study.predictions(case, "long")
+    exact, predicted = full_model(case), predictions(case, "long")
     assert study.summary(predicted.governing / exact.governing)["1st percentile"] < 0.8
     assert not any(
         "has separated" in warning for warning in design_reaction(TRUCK, PIER, SPEED).warnings

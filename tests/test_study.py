@@ -8,8 +8,10 @@ import pytest
 from pierimpact import peak_reactions
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import parameter_chunks
+from pierimpact.collision.reactions import Reactions, full_model
 from pierimpact.design import domain, procedure, study
 from pierimpact.design.procedure import LEVELS
+from pierimpact.design.reaction import predictions
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.files.trucks import load_truck
 from pierimpact.symbols import SYMBOLS
@@ -79,10 +81,10 @@ def test_the_fit_s_error_is_the_file_s(outcome, spectrum):
 def test_the_first_cases_of_the_file_come_out_again(outcome):
     # The whole study takes long; a part of it must agree with the whole as a sample does.
     case = select(domain.sample(study.SIZE, study.SEED), slice(0, 600))
-    exact = study.full_model(case)
+    exact = full_model(case)
     for level in LEVELS:
-        predicted = study.predictions(case, level)
-        for which in study.Reactions._fields:
+        predicted = predictions(case, level)
+        for which in Reactions._fields:
             ratios = getattr(predicted, which) / getattr(exact, which)
             found = study.summary(ratios)
             stated = outcome["predicted over CMSD"][level][which]["all"]
@@ -94,10 +96,10 @@ def test_the_first_cases_of_the_file_come_out_again(outcome):
 
 def test_the_file_is_up_to_date(outcome):
     case = select(domain.sample(study.SIZE, study.SEED), slice(0, study.SHOWN))
-    exact = study.full_model(case).governing
+    exact = full_model(case).governing
     for level in LEVELS:
         stated = outcome["governing of the first cases, predicted over CMSD"][level]
-        found = study.predictions(case, level).governing / exact
+        found = predictions(case, level).governing / exact
         np.testing.assert_allclose(found, stated, rtol=1e-9)
 
 
@@ -119,7 +121,7 @@ def test_the_full_model_is_peak_reactions():
     stiffness, speed = np.array([284e6, 50e6, 2e9]), np.array([22.2, 6.0, 28.0])
     _, parts = parameter_chunks(truck, 8e3, stiffness, 0.05, speed)
     ((_, case),) = parts
-    found, expected = study.full_model(case), peak_reactions(truck, 8e3, stiffness, 0.05, speed)
+    found, expected = full_model(case), peak_reactions(truck, 8e3, stiffness, 0.05, speed)
     np.testing.assert_array_equal(found.engine, expected.engine)
     np.testing.assert_array_equal(found.cargo, expected.cargo)
     np.testing.assert_array_equal(found.governing, expected.governing)
@@ -150,9 +152,9 @@ def test_summary():
 
 def test_bands_part_the_cases(outcome):
     case = domain.sample(300, 5)
-    exact = study.full_model(case)
+    exact = full_model(case)
     found = study.assessment(case, exact, exact)
-    for which in study.Reactions._fields:
+    for which in Reactions._fields:
         bands = dict(found[which])
         for level in LEVELS:
             assert list(outcome["predicted over CMSD"][level][which]) == list(bands)

@@ -11,6 +11,7 @@ import pytest
 
 from pierimpact import cargo_spectrum, engine_spectrum, load_truck
 from pierimpact.design import study
+from pierimpact.design.reaction import predictions
 from pierimpact.plots import validation as spectrum_figures
 from pierimpact.report.validation import Validation, routes, unified_spectrum
 
@@ -63,7 +64,7 @@ def test_the_notebook_is_on_cases_that_were_not_fitted():
 @pytest.mark.parametrize("which", ["engine", "cargo", "governing"])
 def test_tables_by_band(validation, level, which):
     case, exact = validation._case, validation._exact
-    predicted = study.predictions(case, level)
+    predicted = predictions(case, level)
     ratios = getattr(predicted, which) / getattr(exact, which)
     ratios = ratios[np.isfinite(ratios)]
     table = numbers(validation.bands(level, which))
@@ -143,7 +144,7 @@ def test_figures_are_the_same_bytes_every_time_and_whole_in_themselves():
 def test_alternative_texts_say_what_there_is_to_see(validation):
     assert "400 collisions" in validation.scatter("long").alt
     ratio = study.summary(
-        study.predictions(validation._case, "long").governing / validation._exact.governing
+        predictions(validation._case, "long").governing / validation._exact.governing
     )
     assert f"{ratio['mean']:.3f} times" in validation.ratios("long").alt
     figure = routes(TRUCK, 80 / 3.6, 20e3)

@@ -24,8 +24,8 @@ from pierimpact.checks import (
 from pierimpact.collision.contact_forces import contact_forces
 from pierimpact.collision.groups import repeat, select, single
 from pierimpact.collision.parameters import Collision, Parameters, Spring
+from pierimpact.collision.reactions import Reactions, full_model
 from pierimpact.design.sobol import BITS, sobol_points
-from pierimpact.design.study import Reactions, full_model
 from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.vehicle.crush import CrushSpring

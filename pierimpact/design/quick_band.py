@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import Parameters
+from pierimpact.collision.reactions import Reactions, full_model
 from pierimpact.design.band import LEVELS, sampled_factors, with_factors
-from pierimpact.design.study import Reactions, full_model, predictions
+from pierimpact.design.reaction import predictions
 from pierimpact.vehicle.spread import Spread
 
 Array = NDArray[np.float64]

@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pierimpact.collision.parameters import Collision, parameter_chunks
+from pierimpact.collision.parameters import Collision, Parameters, parameter_chunks
+from pierimpact.collision.reactions import Reactions
 from pierimpact.design import domain
 from pierimpact.design.procedure import ALIASES, LEVELS, calculation_of, design_values
 from pierimpact.handcalc import Calculation, Step
@@ -201,3 +202,10 @@ def design_reactions(
         found[:, part] = values["R1"], values["R2"]
     engine, cargo = found.reshape(2, *shape)
     return DesignReactions(engine=engine, cargo=cargo)
+
+
+def predictions(parameters: Parameters, level: str) -> Reactions:
+    """Return the reactions of `full_model` by the design procedure; `level` as there."""
+    values = design_values(parameters, level)
+    engine, cargo = values["R1"], values["R2"]
+    return Reactions(engine, cargo, np.fmax(engine, cargo))

@@ -9,17 +9,19 @@ import json
 from collections.abc import Callable, Mapping
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.collision.groups import select, single
-from pierimpact.collision.parameters import Collision, Parameters, Spring, in_chunks
-from pierimpact.collision.propagation import propagate, propagate_all
+from pierimpact.collision.parameters import Collision, Parameters, Spring
+from pierimpact.collision.propagation import propagate
+from pierimpact.collision.reactions import Reactions, full_model
 from pierimpact.collision.regimes import STEEP, LinearMotion, State
 from pierimpact.design import domain, procedure
 from pierimpact.design.procedure import LEVELS, design_values
+from pierimpact.design.reaction import predictions
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.symbols import SYMBOLS
@@ -48,29 +50,6 @@ BANDS = (5.0, 7.0, 10.0, 15.0, 20.0, 40.0, 80.0, 150.0)
 #: An amplification that is too low weighs this much more in the fit than one too high: this
 #: project's choice.
 PRUDENCE = 2.0
-
-
-class Reactions(NamedTuple):
-    """Engine, cargo and governing reactions, each of shape (n,); cargo is nan without it [N]."""
-
-    engine: Array
-    cargo: Array
-    governing: Array
-
-
-def full_model(parameters: Parameters) -> Reactions:
-    """Return the peak reactions by the full model."""
-    peaks = propagate_all(in_chunks(parameters), parameters.speed.shape)
-    engine = parameters.pier_stiffness * peaks.engine_peak
-    cargo = parameters.pier_stiffness * peaks.cargo_peak
-    return Reactions(engine, cargo, np.fmax(engine, cargo))
-
-
-def predictions(parameters: Parameters, level: str) -> Reactions:
-    """Return the same reactions by the design procedure."""
-    values = design_values(parameters, level)
-    engine, cargo = values["R1"], values["R2"]
-    return Reactions(engine, cargo, np.fmax(engine, cargo))
 
 
 def with_truck(parameters: Parameters, truck: Truck) -> Parameters:

@@ -17,13 +17,13 @@ from pierimpact.collision.contact_forces import contact_forces
 from pierimpact.collision.groups import repeat
 from pierimpact.collision.parameters import Collision, collision_chunks
 from pierimpact.collision.propagation import UnfinishedWarning
+from pierimpact.collision.reactions import full_model
 from pierimpact.collision.simulate import simulate
 from pierimpact.design.band import LEVELS, quantiles, spreads_of
 from pierimpact.design.beam_band import beam_band
 from pierimpact.design.codes import aashto_lrfd
 from pierimpact.design.quick_band import SIZE, quick_reactions, sampled_trucks
 from pierimpact.design.static_forces import StaticForcesInCollision
-from pierimpact.design.study import full_model
 from pierimpact.files.case import column_of, impact_heights, loaded
 from pierimpact.files.csv_lines import Row
 from pierimpact.files.inputs import Inputs, read_inputs

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pierimpact.collision.reactions import Reactions
 from pierimpact.design.procedure import amplification
 from pierimpact.design.reduction import exact_amplification
 from pierimpact.design.spectra import Spectrum
-from pierimpact.design.study import Reactions
 from pierimpact.plots.figures import CLOSED, DESIGN, EXACT, MODEL, name_spectra
 from pierimpact.plots.style import BLUE, GREY, logarithmic, sheet_figure
 from pierimpact.plots.svg import to_svg

@@ -9,20 +9,19 @@ from numpy.typing import NDArray
 
 from pierimpact.collision.groups import select
 from pierimpact.collision.parameters import Parameters
+from pierimpact.collision.reactions import Reactions, full_model
 from pierimpact.design import domain
 from pierimpact.design.procedure import LEVELS
+from pierimpact.design.reaction import predictions
 from pierimpact.design.spectra import cargo_spectrum, engine_spectrum
 from pierimpact.design.study import (
     ERROR_STATISTICS,
     FOLLOWED,
     SEED,
     SIZE,
-    Reactions,
     Summary,
     amplification_ratios,
     assessment,
-    full_model,
-    predictions,
     speed_errors,
     summary,
     with_truck,

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from pierimpact.checks import InputError, brief, whole
 from pierimpact.collision.groups import select, single
+from pierimpact.collision.reactions import full_model
 from pierimpact.design.band import truck_of
-from pierimpact.design.study import full_model
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.risk.exceedance import Exceedance
 from pierimpact.risk.sampling import BLOCK, TILTED, collisions, draw

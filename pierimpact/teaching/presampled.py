@@ -16,9 +16,9 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from pierimpact.collision.reactions import full_model
 from pierimpact.design.codes import JCSS_STIFFNESS
 from pierimpact.design.sobol import BITS, sobol_points
-from pierimpact.design.study import full_model
 from pierimpact.files.trucks import load_truck, truck_names
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.risk.sampling import Arrivals, collisions, nearest
