@@ -11,6 +11,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 import pierimpact
+from pierimpact.design.quick_band import SIZE
 from pierimpact.network.portfolio import BEAM, Portfolio
 from pierimpact.network.tables import RESULTS, ResultColumn
 from pierimpact.plots.portfolio import draw_distributions, draw_map
@@ -155,8 +156,8 @@ def _remarks(portfolio: Portfolio) -> Iterator[str]:
         yield f"The table below has the worst {LISTED:,} piers; results.csv has all."
     if np.isfinite(numbers["band_low"]).any():
         yield (
-            "Bands are of 128 sampled trucks a pier, by the closed spectra where these hold, some "
-            "per cent off those of a report, which has a thousand by the full model."
+            f"Bands are of {SIZE} sampled trucks a pier, by the closed spectra where these hold, "
+            "some per cent off those of a report, which has a thousand by the full model."
         )
 
 

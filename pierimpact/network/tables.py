@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.checks import no_formula
+from pierimpact.design.quick_band import SIZE
 from pierimpact.network.piece import Reject
 from pierimpact.network.portfolio import Portfolio
 from pierimpact.units import unit_of, unit_size
@@ -81,7 +82,7 @@ RESULTS = (
     ResultColumn(
         "band_low",
         "force",
-        "below which 5 % of 128 sampled trucks stay, of each the larger of both heights",
+        f"below which 5 % of {SIZE} sampled trucks stay, of each the larger of both heights",
     ),
     ResultColumn("band_high", "force", "below which 95 % of these stay"),
     ResultColumn("contact_force", "force", "largest force of the truck on the pier"),
