@@ -201,7 +201,7 @@ def parse(name: str, value: object, dimension: str) -> float:
             hint = f": {DECIMALS}"
         elif re.match(r"\d", expression):
             hint = ": a number has no spaces in it"
-        elif re.match(r"(short |metric )?ton(s|nes?)?\b", expression):
+        elif dimension == "mass" and re.match(r"(short |metric )?ton(s|nes?)?\b", expression):
             hint = ": one of 2000 lb is typed in lb, one of 1000 kg in t"
         raise InputError(f"{name} must be {words} ({units}), got unknown unit in {shown}{hint}")
     size, dimensions = unit

@@ -14,10 +14,12 @@ from scipy.optimize import fsolve
 
 from pierimpact import CrushSpring, EquivalentPier, InputError, Truck, load_truck, maps, simulate
 from pierimpact.collision.averages import largest_average_force
-from pierimpact.design.codes import JCSS_STIFFNESS, aashto_lrfd, jcss_hard_impact
+from pierimpact.collision.parameters import Collision
+from pierimpact.design.codes import JCSS_STIFFNESS, aashto_lrfd, hard_impact, jcss_hard_impact
 from pierimpact.design.methods import (
     METHODS,
     WINDOW,
+    _energy_after_blows,
     compare_methods,
     hertz_impact,
     hertz_stiffness,
@@ -32,7 +34,13 @@ radii = st.floats(0.1, 3.0)
 moduli = st.floats(1e9, 1e11)
 
 
-# The plastic bound.
+# Hard impact and its plastic bound.
+
+
+@given(speeds, masses, st.floats(1e4, 1e9))
+def test_hard_impact_stops_the_mass_on_a_spring(speed, mass, stiffness):
+    force = float(hard_impact(speed, mass, stiffness))
+    assert 0.5 * force**2 / stiffness == pytest.approx(0.5 * mass * speed**2, rel=1e-12)
 
 
 @pytest.mark.parametrize(("resistance", "speed"), [(150e3, 8.0), (150e3, 20.0), (400e3, 20.0)])
@@ -158,10 +166,8 @@ def hammer(engine_mass, body_mass, restitution):
 
 
 def energy_of(truck, pier, speed):
-    """What the pier has after the blows, from its reaction without yielding."""
-    pier = dataclasses.replace(pier, yield_reaction=math.inf)
-    reaction = compare_methods(truck, pier, speed, truck.mass, 1e10).energy_reaction
-    return float(0.5 * reaction**2 / pier.stiffness)
+    """What the pier has after the blows."""
+    return _energy_after_blows(Collision(truck, pier, speed))
 
 
 def work_of(pier, displacement):
@@ -192,10 +198,9 @@ def test_the_check_is_one_where_the_pier_just_gets_to():
     assert 3 <= elastic <= 20
 
 
-@settings(max_examples=20, deadline=None)
 @given(speeds)
 def test_a_heavy_pier_takes_up_the_momentum_of_both_blows(speed):
-    pier = EquivalentPier(mass=1e9, stiffness=1e9)
+    pier = EquivalentPier(mass=1e12, stiffness=1e9)
     momentum = 0.0
     for mass, spring, force in (
         (TRUCK.engine_mass, TRUCK.engine_spring, 0.0),
@@ -205,11 +210,10 @@ def test_a_heavy_pier_takes_up_the_momentum_of_both_blows(speed):
         arrival = math.sqrt(max(speed**2 - lost, 0.0))
         momentum += (1.0 + spring.restitution) * mass * arrival
     energy = energy_of(TRUCK, pier, speed)
-    assert energy == pytest.approx(0.5 * momentum**2 / pier.mass, rel=1e-4)
+    assert energy == pytest.approx(0.5 * momentum**2 / pier.mass, rel=1e-6)
 
 
-@settings(max_examples=20, deadline=None)
-@given(st.floats(500.0, 5e4), st.floats(500.0, 5e4), st.floats(0.3, 1.0), st.floats(1e4, 1e5))
+@given(st.floats(500.0, 5e4), st.floats(500.0, 5e4), st.floats(0.0001, 1.0), st.floats(1e3, 1e5))
 def test_the_blows_leave_no_more_energy_than_there_was(engine, body, restitution, mass):
     truck = hammer(engine, body, restitution)
     energy = energy_of(truck, EquivalentPier(mass=mass, stiffness=1e9), 20.0)

@@ -14,6 +14,7 @@ from sheet_page import US_CASE
 from pierimpact.checks import InputError
 from pierimpact.files.case import case_from, case_from_notebook, read_case_file
 from pierimpact.files.inputs import ANNEXES, SharedInputs
+from pierimpact.files.new_case import new_case
 from pierimpact.files.office import SHARED_FILE, read_logo
 from pierimpact.report.calculation import calculate
 from pierimpact.report.warnings import warnings_of
@@ -318,3 +319,8 @@ def test_an_office_shares_its_job_number(tmp_path):
     assert found.endswith(
         "is not a key of pierimpact.toml (" + ", ".join(SharedInputs.model_fields) + ")"
     )
+
+
+def test_a_new_case_leaves_to_the_office_what_it_may_share():
+    given = yaml.safe_load(new_case("circular", "US"))
+    assert set(given) & set(SharedInputs.model_fields) == {"units"}

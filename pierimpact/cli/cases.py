@@ -18,7 +18,8 @@ Calculate cases and write NAME.pdf, NAME.html and NAME.ipynb for each, where NAM
 the case file. Where there are more cases than one, summary.html, summary.pdf and summary.csv have
 a row for each. If a case fails, the others are still calculated; it is reported at the end. With
 --docx, each sheet and the summary are Word documents too; with --binder, binder.pdf has contents,
-summary and all sheets.
+summary and all sheets. A case that another of them supersedes has its sheet, and stands in
+summary.csv; it is left out of the others, which say so.
 
 A report that is there already is replaced, all of its files or none. If somebody has changed one
 of them since, or written a file of that name, nothing is written, unless --force is given. Which

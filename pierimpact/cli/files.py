@@ -5,7 +5,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from pierimpact.cli.terminal import needs
+from pierimpact.cli.terminal import needs, system_of
 from pierimpact.units import SYSTEMS
 
 _NEW = """\
@@ -43,7 +43,7 @@ def add_new(commands: Any) -> None:
     new.add_argument(
         "--units",
         metavar="SYSTEM",
-        type=str.upper,
+        type=system_of,
         choices=SYSTEMS,
         default="SI",
         help="units of values and sheet: SI or US (default: %(default)s)",

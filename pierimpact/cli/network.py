@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from pierimpact.checks import InputError
-from pierimpact.cli.terminal import complain, needs, progress_bars
+from pierimpact.cli.terminal import complain, needs, progress_bars, system_of
 from pierimpact.units import SYSTEMS
 
 _PORTFOLIO = """\
@@ -51,7 +51,7 @@ def add_portfolio(commands: Any) -> None:
         "low (default: %(default)s)",
     )  # fmt: skip
     portfolio.add_argument(
-        "--units", metavar="SYSTEM", type=str.upper, choices=SYSTEMS, default="SI",
+        "--units", metavar="SYSTEM", type=system_of, choices=SYSTEMS, default="SI",
         help="units of the results: SI or US (default: %(default)s)",
     )  # fmt: skip
     add_workers(portfolio)

@@ -6,6 +6,12 @@ from contextlib import ExitStack, contextmanager, suppress
 from typing import Any
 
 from pierimpact.checks import shortened
+from pierimpact.units import SYSTEMS
+
+
+def system_of(text: str) -> str:
+    """Return a system of units, however it is typed; another text as it is, for argparse."""
+    return text.upper() if text.upper() in SYSTEMS else text
 
 
 def complain(message: object) -> None:

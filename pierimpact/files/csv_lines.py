@@ -13,8 +13,9 @@ from pierimpact.units import DECIMALS, DIGITS
 
 #: A decimal number, or a word for one that is not finite.
 NUMBER = re.compile(rf"[-+]?(?:{DIGITS}|nan|inf(?:inity)?)", re.ASCII | re.IGNORECASE)
-# At the start of a cell; three digits after it may be thousands, which is not for us to tell.
-_COMMA = re.compile(r"^(?![-+]?[1-9]\d{0,2},\d{3}(?!\d))([-+]?\d*),(\d+)(?![\d.,])", re.ASCII)
+# At the start of a cell; three digits after a comma may be thousands, which is not for us to tell.
+_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}(?!\d)", re.ASCII)
+_COMMA = re.compile(rf"^(?!{_THOUSANDS.pattern})([-+]?\d*),(\d+)(?![\d.,])", re.ASCII)
 _HEADING = re.compile(r"([^\[\]]*)(?:\[([^\[\]]*)\])?")
 _MOST_CHARACTERS = 10_000  # of a cell; a stray quotation mark would swallow the file
 
@@ -96,6 +97,9 @@ def decimal(name: str, text: str, *, comma: bool = False, kind: str = "a number"
         raise InputError(f"{name} is blank")
     if not NUMBER.fullmatch(number):
         hint = f": {DECIMALS}" if re.search(r"\d,\d", text) else ""
+        if comma and _THOUSANDS.match(text):
+            one, other = (text.replace(",", mark) for mark in (".", ""))
+            hint = f": its comma may part thousands, so write {one} or {other}"
         raise InputError(f"{name} must be {kind}, got {brief(text)}{hint}")
     if not math.isfinite(float(number)):
         raise InputError(f"{name} must be finite, got {shortened(text, 40)}")

@@ -68,7 +68,7 @@ class Rule(NamedTuple):
         for name, codes in self.when.items():
             if name == "built":
                 first, last = map(int, codes)
-                if not (bridge[name].isdecimal() and first <= int(bridge[name]) <= last):
+                if not (_is_whole(bridge[name]) and first <= int(bridge[name]) <= last):
                     return False
             elif _code(bridge[name]) not in codes:
                 return False
@@ -266,7 +266,7 @@ def _place(what: str, heading: list[str], named: str | None) -> int:
 
 def _values(bridge: Mapping[str, str], rules: Rules) -> dict[str, str]:
     """Return the keys of a bridge's pier."""
-    if not (lanes := bridge["lanes_under"]).isdecimal() or int(lanes) == 0:
+    if not _is_whole(lanes := bridge["lanes_under"]) or int(lanes) == 0:
         raise InputError("no lanes under it")
     rule = next((rule for rule in rules.rules if rule.holds(bridge)), None)
     if rules.rules and rule is None:
@@ -279,6 +279,11 @@ def _values(bridge: Mapping[str, str], rules: Rules) -> dict[str, str]:
     return values
 
 
+def _is_whole(text: str) -> bool:
+    """Return whether a text is a whole number in plain digits."""
+    return text.isascii() and text.isdecimal()
+
+
 def _degrees(bridge: Mapping[str, str], which: str) -> float | None:
     """Return a coordinate [°]; None where it is blank or zero."""
     text, digits = bridge[which], _DIGITS[which]
@@ -286,7 +291,7 @@ def _degrees(bridge: Mapping[str, str], which: str) -> float | None:
         return None
     text = text.zfill(digits)
     minutes, seconds = text[-6:-4], text[-4:]
-    if not (text.isdecimal() and len(text) == digits and int(minutes) < 60 and int(seconds) < 6000):
+    if not (_is_whole(text) and len(text) == digits and int(minutes) < 60 and int(seconds) < 6000):
         raise InputError(f"{which} is not degrees, minutes, seconds and hundredths")
     return int(text[:-6]) + int(minutes) / 60 + int(seconds) / 360_000
 

@@ -20,7 +20,6 @@ SCHEMA_FILE = "case.schema.json"
 _TABLE = """
 What the sheet is about
 element | —
-job_number | —
 revision | A
 # date | 2026-01-31
 # revisions | [{revision: A, date: 2026-01-31, description: First issue, by: —}]
@@ -32,6 +31,7 @@ Of the office and the project, unless a pierimpact.toml in this folder gives it 
 # office | Name of the office
 # logo | logo.png
 # project | Name of the project
+# job_number | "0001"
 # prepared_by | Name
 # checked_by | Name
 # approved_by | Name

@@ -1,8 +1,9 @@
 """Tables of piers: CSV or Parquet, a row each, with the keys of case files as columns.
 
 A heading names a key, with its unit in brackets unless the cells have units: `speed [km/h]`.
-Columns are parted by commas, semicolons or tabs; decimals have a point, or a comma where that parts
-no columns. The table is read in pieces, so that it may be larger than memory.
+Columns are parted by commas, semicolons or tabs; decimals have a point, or a comma where that can
+part neither columns nor thousands. The table is read in pieces, so that it may be larger than
+memory.
 """
 
 import hashlib

@@ -39,7 +39,8 @@ def read_record_file(path: str | Path) -> RecordFile:
 
     The first line that is neither empty nor a comment (#) is the heading; it names the time and one
     of "contact force" and "reaction", each with its unit in brackets. Columns are parted by commas,
-    semicolons or tabs; decimals have a point, or a comma where that parts no columns.
+    semicolons or tabs; decimals have a point, or a comma where that can part neither columns nor
+    thousands.
 
     Raises
     ------

@@ -31,7 +31,8 @@ def read_responses(path: str | Path) -> list[Measured]:
 
     The first row names the columns, in any order. A value's unit stands beside its name, as in
     "speed [mph]"; an empty cell is a value that is not given. Columns are parted by commas,
-    semicolons or tabs; decimals have a point, or a comma where that parts no columns. The columns:
+    semicolons or tabs; decimals have a point, or a comma where that can part neither columns nor
+    thousands. The columns:
 
     - case: what the case is called;
     - source, status: where its responses come from, and how certain they are, in the words of

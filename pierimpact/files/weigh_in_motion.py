@@ -24,7 +24,7 @@ def read_weigh_in_motion(path: Path) -> WeighedTrucks:
 
     The first line that is neither empty nor a comment (#) names the columns with their units, mass
     and if there is one speed, in any order. Columns are parted by commas, semicolons or tabs;
-    decimals have a point, or a comma where that parts no columns.
+    decimals have a point, or a comma where that can part neither columns nor thousands.
 
     Raises
     ------

@@ -96,6 +96,7 @@ def draw_envelopes(
             if column is not None:
                 mark_ends(axes, column, size)
         first = panels[0]
+        first.set_yticks([z for z in first.get_yticks() if bottom <= z <= top])
         first.set_ylabel(f"Height $z$ [{unit_of('length', system)}]")
         for static, _, _ in impacts:
             height = static.impact_height

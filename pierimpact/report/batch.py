@@ -294,18 +294,24 @@ def _line(error: Exception | str) -> str:
 
 def _rows(cases: Sequence[Path], results: Sequence[Report | Failure]) -> list[Row]:
     """Return the rows of the summary."""
-    superseded_by = {
-        os.path.realpath(case.parent / result.results.supersedes): case.stem
+    later = {
+        os.path.realpath(case.parent / result.results.supersedes): case
         for case, result in zip(cases, results, strict=True)
         if isinstance(result, Report) and result.results.supersedes is not None
     }
+
+    def superseded_by(case: Path) -> str:
+        """Return the name of the case that supersedes this one, unless they do so in a circle."""
+        seen, last = [os.path.realpath(case)], case
+        while seen[-1] in later:
+            last = later[seen[-1]]
+            if (place := os.path.realpath(last)) in seen:
+                return ""
+            seen.append(place)
+        return "" if last is case else later[seen[0]].stem
+
     return [
-        Row(
-            result.html.stem,
-            result.results,
-            result.warnings,
-            superseded_by.get(os.path.realpath(case), ""),
-        )
+        Row(result.html.stem, result.results, result.warnings, superseded_by(case))
         if isinstance(result, Report)
         else Row(_line(case.stem), None, [result.reason])
         for case, result in zip(cases, results, strict=True)

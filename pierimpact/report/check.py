@@ -52,10 +52,10 @@ def _utilisations(calculation: Calculation) -> Iterator[tuple[str, str, str]]:
 
 
 def check_json(name: str, calculation: Calculation) -> str:
-    """Return the results of a case as a JSON object in one line, in SI units.
+    """Return the results of a case as a JSON object in one line, numbers in SI units.
 
-    Its keys are the fields of `Results`, and "case", which is `name`. Parameters as in
-    `check_text`.
+    Its keys are the fields of `Results`, computed ones too, and "case", which is `name`.
+    Parameters as in `check_text`.
     """
     return json.dumps({"case": name} | Results.of(calculation).model_dump(mode="json"))
 

@@ -110,7 +110,8 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
 
 def _under_code(calculation: Calculation) -> str:
     """Return what the force of AASHTO LRFD alone comes to, where something is checked."""
-    _, height, forces = calculation.code_effects[0]
+    name = aashto_lrfd().code
+    _, height, forces = next(own for own in calculation.code_effects if own.code.code == name)
     if forces is None or not calculation.resistances:
         return ""
     ratios = calculation.utilisations_under(forces)

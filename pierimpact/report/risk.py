@@ -63,16 +63,19 @@ class CaseRisk:
 
     @cached_property
     def _as_beam(self) -> list[Strike]:
-        """A few of the collisions about the reaction that is exceeded once in 10 000 years."""
+        """A few of the collisions about the reaction that is exceeded once in 10 000 years.
+
+        None where no reaction is exceeded so often.
+        """
         reaction = float(self.risk.reaction.value(RATES[-1] / YEAR).value)
-        return self.risk.nearest(reaction, _AS_BEAM)
+        return self.risk.nearest(reaction, _AS_BEAM) if reaction > 0.0 else []
 
     @cached_property
     def beam(self) -> dict[str, tuple[float, float, float]]:
         """Shear and moment of the column as a beam over those of the reaction as a static force.
 
         The least, the median and the largest of a few of the collisions about the reaction that is
-        exceeded once in 10 000 years; empty where the case asks for static ones.
+        exceeded once in 10 000 years; empty where there is none, or the case asks for static ones.
         """
         inputs, column = self.case.inputs, self.case.column
         if inputs.member_forces == "static" or not self._as_beam:

@@ -185,7 +185,7 @@ def summary_blocks(rows: Sequence[Row]) -> list[Block]:
         Paragraph(
             (
                 "The report of each case says what its values rest on, and its assumptions and "
-                "limits. The same values, a row for each case, are in ",
+                "limits. The same values, a row for each case that was given, are in ",
                 Code("summary.csv"),
                 f". Made by pierimpact {pierimpact.__version__}.",
             )
@@ -262,9 +262,9 @@ def summary_csv(rows: Sequence[Row]) -> str:
     return text.getvalue()
 
 
-def current(rows: Sequence[Row]) -> Sequence[Row]:
-    """Return the rows of cases that no other supersedes; all, where they do so in a circle."""
-    return [row for row in rows if not row.superseded_by] or rows
+def current(rows: Iterable[Row]) -> list[Row]:
+    """Return the rows of cases that no other supersedes."""
+    return [row for row in rows if not row.superseded_by]
 
 
 def _calculated(rows: Iterable[Row]) -> dict[str, Results]:

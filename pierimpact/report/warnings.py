@@ -122,9 +122,8 @@ def _wall(calculation: Calculation) -> Iterator[str]:
     section = next(own for own, low, high in case.column.stretches if low <= height <= high)
     width, engaged = getattr(section, "width", 0.0), TRUCK_WIDTH + 2.0 * height
     if width > engaged:
-        wide, part, truck = (
-            _about(value, case.inputs.units) for value in (width, engaged, TRUCK_WIDTH)
-        )
+        wide = printed(width, "length", case.inputs.units, given=True)
+        part, truck = (_about(value, case.inputs.units) for value in (engaged, TRUCK_WIDTH))
         yield (
             f"The column is {wide} wide across the travel, and the sheet takes all of it as one "
             f"beam. A truck about {truck} wide engages some {part} at its foot, spread at 45° (a "
@@ -163,7 +162,9 @@ def _revisions(calculation: Calculation) -> Iterator[str]:
     case = calculation.case
     inputs, earlier = case.inputs, case.superseded_file
     listed = [line.revision for line in inputs.revisions]
-    if listed and inputs.revision not in listed:
+    if listed and inputs.revision == NOT_GIVEN:
+        yield "The case has a table of revisions, and does not say of which revision it is."
+    elif listed and inputs.revision not in listed:
         yield f"The table of revisions has no line for revision {inputs.revision}, of which it is."
     if earlier is None:
         return
@@ -171,7 +172,7 @@ def _revisions(calculation: Calculation) -> Iterator[str]:
     this = f"{earlier.name}, which this case supersedes, is"
     if before.revision == inputs.revision != NOT_GIVEN:
         yield f"{this} of revision {before.revision}, too."
-    if before.element != inputs.element:
+    if NOT_GIVEN != before.element != inputs.element != NOT_GIVEN:
         yield f"{this} of another element: {before.element}."
 
 

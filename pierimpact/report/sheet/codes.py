@@ -1,10 +1,14 @@
 """The design reaction beside the equivalent static forces of codes."""
 
+from itertools import chain
+
 from pierimpact.design.codes import CodeForce, Sourced
 from pierimpact.pier.member_forces import MemberForces
 from pierimpact.plots.code_bars import draw_code_bars
 from pierimpact.report.document.blocks import Block, Notes
+from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
+from pierimpact.report.outcome import DEMANDS
 from pierimpact.report.sheet.section import Section
 from pierimpact.units import compared, converted, rounded
 
@@ -110,15 +114,14 @@ class Codes(Section):
             ]
             if forces is None:
                 ratio = rounded(result.design_force / code.along.value, 3)
-                used = [""] * len(result.resistances)
-                rows.append([code.code, *cells, "at or above the top", "", ratio, "", "", *used])
+                rows.append([code.code, *cells, "at or above the top", "", ratio, "", ""])
             else:
                 rows.append([code.code, *cells, *self._effects(forces)])
         return Table(
             label="tab-effects",
             caption="The forces along the travel on this column, each at its own height or, marked "
             "*, at that of this calculation: base shear, largest moment, and this calculation over "
-            "each" + ("; utilisation under that force." if result.resistances else "."),
+            "each.",
             columns=columns(
                 wide("Code"),
                 decimal(f"Force [{force}]"),
@@ -128,16 +131,14 @@ class Codes(Section):
                 decimal("Ratio of force"),
                 decimal("of shear"),
                 decimal("of moment"),
-                *(decimal(f"Utilisation, {name}") for name in result.resistances),
             ),
             rows=rows,
             strong=[0],
         )
 
     def _effects(self, forces: MemberForces) -> list[str]:
-        """Return base shear, largest moment, this calculation over these, and what they use."""
-        result = self.calculation
-        own, used = result.member_forces, result.utilisations_under(forces)
+        """Return base shear and largest moment, and this calculation over force, shear, moment."""
+        own = self.calculation.member_forces
         shear, moment = abs(forces.base_force), abs(forces.largest_moment.value)
         return [
             self.number(shear, "force"),
@@ -145,8 +146,34 @@ class Codes(Section):
             rounded(own.reaction / forces.reaction, 3),
             rounded(abs(own.base_force) / shear, 3) if shear else _UNKNOWN,
             rounded(abs(own.largest_moment.value) / moment, 3) if moment else _UNKNOWN,
-            *map(compared, used.values()),
         ]
+
+    def utilisations(self) -> Block | None:
+        """Return what each force alone comes to; None where the case gives no resistance."""
+        result = self.calculation
+        if not result.resistances:
+            return None
+        rows: list[list[Inline]] = []
+        for code, _, forces in result.code_effects:
+            used = {} if forces is None else result.utilisations_under(forces)
+            cells = [
+                (self.number(ratio * result.resistances[name], DEMANDS[name]), compared(ratio))
+                for name, ratio in used.items()
+            ]
+            empty = [_UNKNOWN] * (2 * len(result.resistances))
+            rows.append([code.code, *(chain(*cells) if cells else empty)])
+        heads = [
+            decimal(words)
+            for name in result.resistances
+            for words in (f"Largest {name} [{self.unit(DEMANDS[name])}]", "Utilisation")
+        ]
+        return Table(
+            label="tab-code-utilisation",
+            caption="What each of these forces alone comes to on this column, as a static force: "
+            "the largest anywhere, over the resistance.",
+            columns=columns("Code", *heads),
+            rows=rows,
+        )
 
     def notes(self) -> Block:
         """Return what else is known of the clauses."""

@@ -92,8 +92,12 @@ class Derivation(PierSection):
                 "These are four equations for four unknowns, solved as they stand. To check them, "
                 "begin at the base with what ",
                 Ref("Table", "tab-unit-force"),
-                " gives and its support allows, and walk up: what arrives at the top must be what "
-                "its support allows.",
+                " and its support give, and walk up: what arrives at the top must be what its "
+                "support allows. An end that turns or moves freely leaves ",
+                Tex(r"\theta_0"),
+                " or ",
+                Tex("x_0"),
+                " to be what makes it so.",
             )
         )
 

@@ -187,7 +187,7 @@ class MemberForces(Section):
                 else "; filled, the beam’s envelopes of both signs"
             )
             + ("; vertical, the resistances" if given else "")
-            + ("; at the foot, the largest of each truck, 5 to 95 %" if bands else "")
+            + ("; at the foot, the band of the largest ones, 5 to 95 %" if bands else "")
             + ". Moment positive where the far face is in tension.",
             alt=f"Envelopes of shear and moment. The largest shear is {largest['shear']}, the "
             f"largest moment {largest['moment']}.",
