@@ -322,5 +322,5 @@ def test_an_office_shares_its_job_number(tmp_path):
 
 
 def test_a_new_case_leaves_to_the_office_what_it_may_share():
-    given = yaml.safe_load(new_case("circular", "US"))
+    given = yaml.safe_load(new_case(system="US"))
     assert set(given) & set(SharedInputs.model_fields) == {"units"}
