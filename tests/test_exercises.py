@@ -250,7 +250,8 @@ NUMBER = Question(words="?", answer=0.407, solution="= 0.407")
 )
 def test_hints(given, said):
     verdict = check(FORCE, given)
-    assert verdict.right is False
+    # Who has rounded too early loses no try.
+    assert verdict.right is (None if said == "Nearly" else False)
     assert said in verdict.words
 
 

@@ -147,7 +147,7 @@ def test_collision_claims():
         for spring in (truck.engine_spring, truck.body_spring)
     )
     assert 0.5 < plateaus / whole < 0.55
-    says("collision", "Never more than a hundredth is in the pier")
+    says("collision", "With the values at first never more than a hundredth is in the pier")
     in_pier = energy.pier_elastic + 0.5 * scenario.pier.mass * history.pier_velocity**2
     assert in_pier.max() < 0.01 * whole
     says("collision", "Below 60 km/h the second spike disappears, and below 53 km/h the first.")
@@ -333,12 +333,12 @@ def test_spectra_claims():
 
 def test_the_stiffness_of_a_spring_counts_on_a_soft_pier_through_the_rebound():
     reason = questions("limits")[0].reason
-    assert (
-        "counts only through the rebound, e = √(k/k_u), and moves the peak by a few per" in reason
-    )
+    assert "counts only through the rebound, e = √(k/k_u), and moves the peak by less" in reason
     for hertz in (4.0, 7.0, 10.0):
         before, unloading = on_a_pier(hertz), EXAMPLE.engine_unloading_stiffness
+        for share in (1.3, 1.8):  # as far as the question asks
+            stiffer = {"engine_stiffness": share * before.engine_stiffness}
+            assert 1.0 < growth(before, on_a_pier(hertz, **stiffer))["engine"] < share**0.25
         stiffer = {"engine_stiffness": 1.5 * before.engine_stiffness}
-        assert 1.01 < growth(before, on_a_pier(hertz, **stiffer))["engine"] < 1.03
         stiffer["engine_unloading_stiffness"] = 1.5 * unloading  # and no other rebound
         assert growth(before, on_a_pier(hertz, **stiffer))["engine"] == pytest.approx(1.0, abs=2e-3)

@@ -62,7 +62,7 @@ HARD_IMPACT = Method(
     Certainty.READ,
     "The vehicle is one mass on one linear spring, and the pier does not move.",
     "Low: 300 kN/m stops the truck within metres, as if it crumpled all along; engine and cargo "
-    "are stopped within centimetres once the crumple length in front of them is used up.",
+    "are stopped over some 3 and 35 cm once the crumple length in front of them is used up.",
 )
 PLASTIC_IMPACT = Method(
     "Plastic bound",

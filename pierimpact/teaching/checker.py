@@ -142,7 +142,7 @@ def _judge(question: Question, answer: float, value: float) -> tuple[int, Verdic
     if _close(-value, answer, tolerance):
         return 1, Verdict(False, "The size is right, the sign is not.")
     if _close(value, answer, _ROUNDED):
-        return 1, Verdict(False, "Nearly: keep four figures on the way, and round at the end.")
+        return 1, Verdict(None, "Nearly: keep four figures on the way, and give three.")
     units = f"{pair}?" if (pair := _UNIT_PAIRS.get(question.dimension)) else _PUT_IN
     factors = {
         1e3: f"You are out by 1000: {units}",

@@ -7,7 +7,7 @@ from functools import cache
 from pierimpact.teaching.checker import Mistake, Question
 from pierimpact.teaching.lesson import Lesson, Misconception, Prediction
 from pierimpact.teaching.numbers import Numbers
-from pierimpact.teaching.questions.common import IN_KMH, KMH, MS_AS_KMH, NO_HALF, history
+from pierimpact.teaching.questions.common import IN_KMH, KMH, KMH_AS_MS, MS_AS_KMH, NO_HALF, history
 from pierimpact.teaching.scenario import REFERENCE, Scenario
 
 _CHOICES = {
@@ -88,11 +88,12 @@ def _contact_speed(numbers: Numbers) -> Question:
             Mistake(left(half=1.0), NO_HALF),
             Mistake(left(speed=kmh), IN_KMH),
             Mistake(left() * KMH, MS_AS_KMH),
+            Mistake(left() / KMH, KMH_AS_MS),
             Mistake(
                 math.sqrt(speed**2 + 2.0 * work / mass), "The plateau slows the engine: minus."
             ),
         ),
-        start="What the work of the plateau force leaves of the engine’s kinetic energy?",
+        start="What does the work of the plateau force leave of the engine’s kinetic energy?",
         solution=f"v₁ = √(V² − 2 P₁ d₁ / m₁) = √(({speed:.4g} m/s)² − 2 × {1000 * kilonewtons} N × "
         f"{decimetres / 10:g} m / {mass} kg) = {left():.4g} m/s",
         reason="The engine is light, so its plateau takes up much of its energy.",
@@ -117,6 +118,7 @@ def _threshold(numbers: Numbers) -> Question:
             Mistake(speed(force=plateau - friction), "Friction slows the body as well: it adds."),
             Mistake(speed(half=1.0), NO_HALF),
             Mistake(speed() * KMH, MS_AS_KMH),
+            Mistake(speed() / KMH, KMH_AS_MS),
         ),
         start="At that speed the work of both forces takes up all of the body’s kinetic energy.",
         solution=f"½ m₂ V² = (P₂ + c_s) d₂, so V = √(2 × {1000 * (plateau + friction)} N × "

@@ -9,6 +9,7 @@ KMH = 1.0 / 3.6
 
 IN_KMH = "Was the speed that you put in in m/s? 36 km/h are 10 m/s."
 MS_AS_KMH = "That is the number in m/s: convert it, or give it that unit."
+KMH_AS_MS = "That is the number in km/h: convert it, or give it that unit."
 NO_HALF = "Look at the kinetic energy again: there is a factor ½ in it."
 IN_TONNES = "Was the mass that you put in in kg? One tonne is 1000 kg."
 NO_ROOT = "The square root is missing."

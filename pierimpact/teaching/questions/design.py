@@ -140,7 +140,7 @@ LESSON = Lesson(
     misconceptions=(
         Misconception(
             "A code’s force is the largest that can occur.",
-            "It is an equivalent static force, chosen for an accepted probability.",
+            "It is a static force to design with; that of AASHTO comes from averages over 25 ms.",
         ),
         Misconception(
             "A peak above the code’s force means failure.",

@@ -49,7 +49,7 @@ def _uncertain(numbers: Numbers) -> Question:
         start="Only k changes, and it stands under a root.",
         solution=f"√(1 + {percent / 100:g}) = {answer:.4g}",
         reason="The root halves small errors of the stiffness; on a soft pier k counts only "
-        "through the rebound, e = √(k/k_u), and moves the peak by a few per cent.",
+        "through the rebound, e = √(k/k_u), and moves the peak by less.",
     )
 
 
@@ -76,8 +76,8 @@ _NEEDED = {
     "model, not how well the model follows a real truck.",
     "more figures in the result": "More figures do not make the truck’s parameters better known.",
     "the parameters of the truck you design for, with their source": "",
-    "a lower damping ratio, to be on the safe side": "Damping hardly matters beside the truck’s "
-    "own parameters.",
+    "a lower damping ratio, to be on the safe side": "That changes the result, and makes "
+    "nothing of the truck better known.",
 }
 
 

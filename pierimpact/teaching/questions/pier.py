@@ -11,7 +11,8 @@ from pierimpact.teaching.scenario import Scenario
 
 _CHOICES = {
     "less than the column’s mass, for only a part of the column moves": "That holds where the "
-    "column is held at its top. A free top moves more than the point that is struck.",
+    "column is held at its top and not struck close to its base. A free top moves more than the "
+    "point that is struck.",
     "as much as the column’s mass": "Each part counts by the square of how far it moves compared "
     "with the point that is struck, not by its mass alone.",
     "more than the column’s mass": "The free top moves more than the point that is struck, and "
@@ -85,7 +86,7 @@ def _leaning(numbers: Numbers) -> Question:
         solution=f"m̄ = 2400 × π × {diameter:g}²/4 = {mass:.1f} kg/m; m_p = m̄ ∫ (z/z_n)² dz = "
         f"m̄ H³/(3 z_n²) = {mass:.1f} kg/m × ({height:g} m)³ / (3 × ({struck:g} m)²) = "
         f"{answer:.0f} kg",
-        reason="Several times the mass of the column: m_p measures inertia at the impact.",
+        reason="More than the mass of the column: m_p measures inertia at the impact.",
     )
 
 

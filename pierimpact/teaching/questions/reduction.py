@@ -124,8 +124,8 @@ LESSON = Lesson(
     misconceptions=(
         Misconception(
             "A pier carries the force that strikes it.",
-            "It carries S times as much: far less where it is soft, up to half as much again where "
-            "it is stiff.",
+            "It carries S times as much: far less where it is soft, up to half as much again in "
+            "between, and just that force where it is stiff.",
         ),
         Misconception(
             "Where S exceeds 1 there is resonance.",

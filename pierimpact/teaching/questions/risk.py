@@ -6,12 +6,12 @@ from pierimpact.teaching import presampled
 from pierimpact.teaching.checker import Mistake, Question
 from pierimpact.teaching.lesson import Lesson, Misconception, Prediction
 from pierimpact.teaching.numbers import Numbers
-from pierimpact.teaching.questions.common import KMH, MS_AS_KMH
+from pierimpact.teaching.questions.common import KMH, KMH_AS_MS, MS_AS_KMH
 from pierimpact.teaching.scenario import Scenario
 
 _CHOICES = {
-    "the heaviest, above 40 t, however slow": "They are few, and the engine in front of them "
-    "weighs hardly more than that of others.",
+    "the heaviest, above 40 t, however slow": "They are few, and more load behind the same "
+    "front does not make the first blow larger.",
     "the fastest, above 70 km/h, of any mass": "The blow grows with the speed, and few arrive so "
     "fast: most have braked on their way.",
     "the usual ones, of 50 to 70 km/h, because they are the most": "They are the most that "
@@ -74,7 +74,8 @@ def _arrival(numbers: Numbers) -> Question:
         dimension="speed",
         answer=left(),
         mistakes=(
-            Mistake(left() * 3.6, MS_AS_KMH),
+            Mistake(left() * KMH, MS_AS_KMH),
+            Mistake(left() / KMH, KMH_AS_MS),
             Mistake(left(energy=1.0), "Look at the energy again: ½ m v² and m a s."),
             Mistake(kmh * KMH - braking * way / (kmh * KMH), "It slows down on the way: it takes "
                     "longer than at its first speed."),
@@ -121,7 +122,8 @@ LESSON = Lesson(
     misconceptions=(
         Misconception(
             "The heaviest truck is the worst.",
-            "It is only as bad as it is fast, and the engine in front of it weighs little more.",
+            "It is only as bad as it is fast: more load behind the same front does not make the "
+            "first blow larger.",
         ),
         Misconception(
             "Twice the traffic is twice the force.",
