@@ -45,9 +45,8 @@ export function questions({ outcome, speed, mass, masses, crossing, range }) {
 
   function bumper() {
     return {
-      words: `A stiff pier (${STIFF} Hz) carries far more of the engine’s blow than a soft one `
-        + `(${SOFT} Hz). Now look at the bumper instead. The largest force between engine and pier `
-        + "is …",
+      words: `Now look at the bumper instead, at a stiff pier (${STIFF} Hz) and at a soft one `
+        + `(${SOFT} Hz). The largest force between engine and pier is …`,
       choices: [
         ["… far larger at the stiff pier, too.", "The force at the bumper is that in the pier."],
         ["… about the same at both.", ""],
