@@ -164,6 +164,30 @@ def test_output_in_ascii_and_to_a_full_disk():
     assert done.stderr == "pierimpact: the output: No space left on device\n"
 
 
+def test_an_interrupt_that_a_callback_drops_comes_again():
+    program = """
+import signal, time, weakref
+from pierimpact.cli.ending import signals_as_interrupts
+
+class Thing:
+    pass
+
+try:
+    with signals_as_interrupts() as ending:
+        thing = Thing()
+        reference = weakref.ref(thing, lambda _: signal.raise_signal(signal.SIGTERM))
+        del thing
+        time.sleep(60.0)
+except KeyboardInterrupt:
+    print("ended by", int(ending.signal))
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=30, check=True
+    )
+    assert done.stdout == f"ended by {int(signal.SIGTERM)}\n"
+    assert done.stderr == ""
+
+
 @pytest.mark.parametrize("delay", [0.03, 0.06, 0.1, 0.2])
 def test_an_interrupt_at_the_start_is_one_line(delay):
     environment = os.environ | {"PYTHONPATH": str(Path(pierimpact.__file__).parent.parent)}

@@ -188,10 +188,9 @@ def test_the_lesson_says_what_is_so():
     assert "masses up to 60 t and speeds up to 160 km/h drawn evenly" in prose
     assert 3.6 * presampled.SPEEDS[1] == pytest.approx(160.0)
     assert presampled.MASSES[1] == 60e3
-    assert "The masses of both are nearly alike." in prose
-    assert np.average(own.mass, weights=above) == pytest.approx(
-        np.average(own.mass, weights=weights), rel=0.03
-    )
+    assert "Their mean mass is 22 t either way." in prose
+    for counted in (weights, above):
+        assert np.average(own.mass, weights=counted) == pytest.approx(22e3, abs=600.0)
     soft = weights * (own.reaction["10 Hz"] > 5e6)
     assert np.average(own.engine["10 Hz"], weights=soft) < 0.02
     assert np.average(own.mass < 15.5e3, weights=soft) > 0.6

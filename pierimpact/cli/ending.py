@@ -8,9 +8,10 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import NoReturn
+from typing import Any, NoReturn
 
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP")  # not all systems have all
+_AGAIN = 0.01  # numerical: after which an interrupt that went astray comes again [s]
 
 
 class Ending:
@@ -24,7 +25,8 @@ def signals_as_interrupts() -> Iterator[Ending]:
     """Turn the first signal that ends a process into a KeyboardInterrupt, to clean up after it.
 
     Those that follow mean the same, and are ignored. A signal that is ignored before, as in the
-    background or by nohup, stays so.
+    background or by nohup, stays so. One that meets the callback of a weak reference or a `__del__`,
+    whose exceptions Python prints and drops, comes again a little later.
     """
     ending, numbers = Ending(), [getattr(signal, name) for name in _NAMES if hasattr(signal, name)]
 
@@ -34,16 +36,36 @@ def signals_as_interrupts() -> Iterator[Ending]:
         ending.signal = number
         raise KeyboardInterrupt
 
+    def dropped(unraisable: Any) -> None:
+        if unraisable.exc_type is not KeyboardInterrupt:
+            hook(unraisable)
+            return
+        for each in before:
+            signal.signal(each, end)
+        threading.Timer(_AGAIN, _send, (ending.signal,)).start()
+
     if threading.current_thread() is not threading.main_thread():
         numbers = []  # only the main thread may, and is interrupted
     before = {n: signal.getsignal(n) for n in numbers if signal.getsignal(n) != signal.SIG_IGN}
+    hook = sys.unraisablehook
     try:
+        if before:
+            sys.unraisablehook = dropped
         for number in before:
             signal.signal(number, end)
         yield ending
     finally:
+        sys.unraisablehook = hook
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def _send(number: int) -> None:
+    """Send a signal to the main thread of this process, whatever it waits for."""
+    if os.name == "nt":
+        signal.raise_signal(number)
+    else:
+        os.kill(os.getpid(), number)
 
 
 def open_streams() -> None:
