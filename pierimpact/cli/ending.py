@@ -25,8 +25,8 @@ def signals_as_interrupts() -> Iterator[Ending]:
     """Turn the first signal that ends a process into a KeyboardInterrupt, to clean up after it.
 
     Those that follow mean the same, and are ignored. A signal that is ignored before, as in the
-    background or by nohup, stays so. One that meets the callback of a weak reference or a `__del__`,
-    whose exceptions Python prints and drops, comes again a little later.
+    background or by nohup, stays so. One that meets the callback of a weak reference or a
+    `__del__`, whose exceptions Python drops, comes again a little later.
     """
     ending, numbers = Ending(), [getattr(signal, name) for name in _NAMES if hasattr(signal, name)]
 
