@@ -302,13 +302,13 @@ def _rows(cases: Sequence[Path], results: Sequence[Report | Failure]) -> list[Ro
 
     def superseded_by(case: Path) -> str:
         """Return the name of the case that supersedes this one, unless they do so in a circle."""
-        seen, last = [os.path.realpath(case)], case
-        while seen[-1] in later:
-            last = later[seen[-1]]
-            if (place := os.path.realpath(last)) in seen:
+        places = [os.path.realpath(case)]
+        while places[-1] in later:
+            place = os.path.realpath(later[places[-1]])
+            if place in places:
                 return ""
-            seen.append(place)
-        return "" if last is case else later[seen[0]].stem
+            places.append(place)
+        return later[places[0]].stem if len(places) > 1 else ""
 
     return [
         Row(result.html.stem, result.results, result.warnings, superseded_by(case))

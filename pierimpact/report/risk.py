@@ -65,7 +65,7 @@ class CaseRisk:
     def _as_beam(self) -> list[Strike]:
         """A few of the collisions about the reaction that is exceeded once in 10 000 years.
 
-        None where no reaction is exceeded so often.
+        Empty where no reaction is exceeded so often.
         """
         reaction = float(self.risk.reaction.value(RATES[-1] / YEAR).value)
         return self.risk.nearest(reaction, _AS_BEAM) if reaction > 0.0 else []
