@@ -1,6 +1,7 @@
 """What the figures of the sheet's pages draw is what they were given."""
 
 import io
+from dataclasses import replace
 from unittest.mock import patch
 
 import numpy as np
@@ -150,6 +151,15 @@ def test_a_resistance_far_away_is_said_in_words():
     dashed = [line for line in moment.lines if to_hex(line.get_color()) != VERMILION]
     places = {abs(float(line.get_xdata()[0])) for line in dashed if len(line.get_xdata()) == 2}
     assert any(place == pytest.approx(3000.0) for place in places)
+
+
+def test_a_column_that_nothing_bends_has_an_axis_all_the_same():
+    column = replace(COLUMN, top="free", base_stiffness=2e9)
+    impact = column.member_forces(5e6, 0.0), column.member_forces(-2e6, 0.0), None
+    assert float(np.max(np.abs(impact[0].moment))) == 0.0
+    for axes in axes_of(envelopes.draw_envelopes, [impact], (None, None), {}, "SI", column):
+        low, high = axes.get_xlim()
+        assert low < 0.0 < high
 
 
 @pytest.mark.parametrize("quantity", QUANTITIES)

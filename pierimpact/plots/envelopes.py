@@ -179,7 +179,7 @@ def _draw_resistance(
     axes: Axes, resistance: float | None, quantity: _Quantity, system: str
 ) -> list[Label]:
     """Draw a resistance on both sides, or say that it is far away; return its labels."""
-    largest = float(np.max(np.abs(axes.dataLim.intervalx)))
+    largest = float(np.max(np.abs(axes.dataLim.intervalx))) or 1.0  # nothing bends it
     axes.set_xlim(-1.35 * largest, 1.35 * largest)
     heading = f"{quantity.name.capitalize()} ${quantity.symbol}$ [{unit_of(quantity.kind, system)}]"
     axes.set_xlabel(heading)

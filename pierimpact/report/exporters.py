@@ -443,6 +443,9 @@ def typst_bytes(base64_text: str) -> Any:
     return Markup(", ".join(map(str, base64.b64decode(base64_text))) + ",")
 
 
+_CLOSER = "set closer"  # what the sheet's template stops with, to be compiled again
+
+
 def compile_typst(
     source: str, date: str, inputs: Mapping[str, str] = MappingProxyType({})
 ) -> tuple[bytes, str]:
@@ -450,9 +453,10 @@ def compile_typst(
 
     The bytes are the same for the same source, date, written as 2026-01-31, and inputs. Where the
     text is in a script that the fonts at hand lack, such as Chinese, the fonts of the system are
-    searched too. Where the places of the drawings do not settle, one moving the next, all stand
-    where they are spoken of. A character that no font has prints as its number, such as [U+6865],
-    rather than as an empty box, which the PDF's standards do not allow.
+    searched too. A sheet that stops to be set closer is. Where the places of the drawings do not
+    settle, one moving the next, all stand where they are spoken of. A character that no font has
+    prints as its number, such as [U+6865], rather than as an empty box, which the PDF's standards
+    do not allow.
     """
     compiled: Callable[..., tuple[bytes, Sequence[Any]]] = typst.compile_with_warnings
     inputs = dict(inputs)
@@ -476,6 +480,9 @@ def compile_typst(
                 raise RuntimeError(f"Typst stopped: {error}") from None
             if not isinstance(error, typst.TypstError):
                 raise
+            if _CLOSER in str(error) and "close" not in inputs:
+                inputs["close"] = "yes"
+                continue
             found = _to_number(set(_undisplayed(error)) - set(missing))
             if not found:
                 raise
