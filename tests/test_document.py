@@ -74,7 +74,7 @@ BLOCKS = [
     (
         Verdict(
             statement=RUN,
-            stops=True,
+            mark="STOP",
             svg=SVG,
             alt=NASTY,
             results=[(NASTY, Printed(NASTY, NASTY), RUN)],

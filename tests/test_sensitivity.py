@@ -89,13 +89,21 @@ def test_the_curves_run_over_half_the_value_to_either_side(found):
         assert (low, high) == pytest.approx((0.5 * value, 1.5 * value))
         assert len(variation.values) > 20
     assert found.impact_height.values[0] == pytest.approx(0.5 * HEIGHT)
-    spectrum = found.frequency.values[found.frequency.values != PIER.frequency]
+    spectrum = found.frequency.values[found.frequency.values < 201.0]
     assert spectrum[[0, -1]] == pytest.approx([2.0, 200.0])
 
 
 def test_heights_stay_on_the_column_and_this_pier_is_in_the_spectrum(found):
     assert found.impact_height.values[-1] < COLUMN.height
     assert PIER.frequency in found.frequency.values
+
+
+@pytest.mark.parametrize("frequency", [2.1, 190.0, 700.0])
+def test_a_pier_at_an_end_of_the_spectrum_has_neighbours_on_both_sides(frequency):
+    pier = EquivalentPier.from_frequency(PIER.mass, frequency, 0.05)
+    values = sensitivity(TRUCK, COLUMN, pier, HEIGHT, SPEED).frequency.values
+    for share in (0.9, 1.1):
+        assert np.min(np.abs(values / (share * frequency) - 1.0)) < 1e-12
 
 
 def test_between_its_frequencies_a_spectrum_is_straight(found):

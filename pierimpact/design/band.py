@@ -23,7 +23,8 @@ from pierimpact.checks import (
 )
 from pierimpact.collision.contact_forces import contact_forces
 from pierimpact.collision.groups import repeat, select, single
-from pierimpact.collision.parameters import Collision, Parameters, Spring
+from pierimpact.collision.parameters import Collision, Parameters, Spring, in_chunks
+from pierimpact.collision.propagation import propagate_all
 from pierimpact.collision.reactions import Reactions, full_model
 from pierimpact.design.sobol import BITS, sobol_points
 from pierimpact.pier.beam import BeamPier
@@ -93,6 +94,13 @@ class ReactionBand:
     def cargo_contact(self) -> float:
         """Share of the collisions in which the cargo meets the pier [-]."""
         return float(np.mean(np.isfinite(self.cargo)))
+
+    @property
+    def engine_contact(self) -> float:
+        """Share of the collisions in which the engine meets the pier [-]."""
+        # The reactions do not say so: sheet metal alone makes an engine's peak, too.
+        outcomes = propagate_all(in_chunks(self.parameters), self.parameters.speed.shape)
+        return float(np.mean(np.isfinite(outcomes.engine_contact)))
 
     def quantiles(self, levels: Sequence[float] = LEVELS, of: str = "governing") -> Array:
         """Return the reactions below which these shares of all collisions stay.

@@ -19,6 +19,9 @@ Array: TypeAlias = NDArray[np.float64]
 #: sheet, 10 km/h or 5 mph [m/s]; and of the share of the truck's mass.
 SPEED_CHANGES = {"SI": 10.0 / 3.6, "US": 5.0 * 0.44704}
 MASS_CHANGE = 0.2
+#: Share by which impact height, or the nearest calculated, and pier frequency change: this
+#: project's choice.
+NEAR = 0.1
 
 #: Curves run over these shares of the case's value, and that of the height of an impact at the
 #: ground over these heights [m]: this project's choice.
@@ -108,11 +111,12 @@ def sensitivity(
         return Collision(truck, other, speed)
 
     mass = truck.mass
+    around = pier.frequency * np.array([1.0 - NEAR, 1.0, 1.0 + NEAR])
     asked: dict[str, tuple[Any, Callable[[float], Collision | None]]] = {
         "speed": (speed * SHARES, at_speed),
         "mass": (mass * SHARES, at_mass),
         "impact_height": (impact_height * SHARES if impact_height else _FROM_GROUND, at_height),
-        "frequency": (np.unique(np.append(_FREQUENCIES, pier.frequency)), at_frequency),
+        "frequency": (np.unique(np.append(_FREQUENCIES, around)), at_frequency),
         "slower": ([speed - speed_change], at_speed),
         "faster": ([speed + speed_change], at_speed),
         "lighter": ([mass * (1.0 - MASS_CHANGE)], at_mass),

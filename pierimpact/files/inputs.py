@@ -288,6 +288,12 @@ class Inputs(SharedInputs, SectionInputs):
         """System of the unit that the concrete's strength is given in: "SI" or "US"."""
         return "US" if self._strength_in_psi else "SI"
 
+    @property
+    def revision_date(self) -> datetime.date | None:
+        """Date of this revision in the table of revisions; None if it has no line there."""
+        dates = {line.revision: line.date for line in self.revisions}
+        return dates.get(self.revision)
+
 
 KEYS = tuple(Inputs.model_fields)
 #: Keys whose source a case file can give, or that it can mark as assumed.
@@ -312,6 +318,8 @@ def read_inputs(values: Mapping[str, object]) -> Inputs:
     for key in (*inputs.assumed, *inputs.sources):
         if key not in given:
             raise InputError(f"{key} is listed under assumed or sources, but is not given")
+    if "date" not in given and inputs.revision_date:
+        inputs = inputs.model_copy(update={"date": inputs.revision_date})
     inputs._strength_in_psi = in_us_units(given.get("concrete_strength"))
     return inputs
 

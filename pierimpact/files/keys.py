@@ -23,7 +23,7 @@ _WORDS = {
     "job_number": "job number, in quotes if it is a number",
     "element": "part of the structure",
     "revision": "revision, in quotes if it is a number",
-    "date": "date; that of the calculation is today’s if left out",
+    "date": "date; if left out, that of its line in the table of revisions, or today’s",
     "column_shape": "shape of the column’s section",
     "base": "what holds the base of the column",
     "top": "what holds its top",

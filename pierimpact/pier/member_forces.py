@@ -110,6 +110,16 @@ class MemberForces:
         height = float(self.z[corner])
         return Extreme(float(self.moment[corner]), height, height)
 
+    def shear_within(self, low: float, high: float) -> float:
+        """Return the largest magnitude of the shear from one height to another, above it [N]."""
+        below, above = low < self.impact_height, high > self.impact_height
+        return float(np.max(np.abs(self.shear[[0, 2]]), where=[below, above], initial=0.0))
+
+    def moment_within(self, low: float, high: float) -> float:
+        """Return the largest magnitude of the moment from one height to another [N m]."""
+        places = np.clip([low, self.impact_height, high], low, high)
+        return float(np.max(np.abs(np.interp(places, self.z, self.moment))))
+
 
 class BeamExtreme(NamedTuple):
     """A largest or smallest value of shear [N] or moment [N m], and where and when it occurs."""
@@ -219,6 +229,13 @@ class MemberForceHistory:
             return _Peaks(value, time)
 
         return beside(values.argmax(axis=0)), beside(values.argmin(axis=0))
+
+    def between(self, low: float, high: float) -> "MemberForceHistory":
+        """Return the same at those of its heights that are from one to another [m]."""
+        own = (self.z >= low) & (self.z <= high)
+        return MemberForceHistory(
+            time=self.time, z=self.z[own], shear=self.shear[:, own], moment=self.moment[:, own]
+        )
 
     def _extremes(self, largest: _Peaks, smallest: _Peaks) -> BeamExtremes:
         def beside(peaks: _Peaks, place: np.intp) -> BeamExtreme:

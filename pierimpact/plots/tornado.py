@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 
 from pierimpact.collision.parameters import Collision
 from pierimpact.design.band import ReactionBand
-from pierimpact.design.sensitivity import SHARES, Sensitivity, Variation
+from pierimpact.design.sensitivity import NEAR, SHARES, Sensitivity, Variation
 from pierimpact.plots.bars import End, name_bars, write_ends
 from pierimpact.plots.style import BLUE, INK, SKY, TEXT_WIDTH, page_figure, trim_ticks
 from pierimpact.plots.svg import to_svg
@@ -20,8 +20,6 @@ _ROW, _TOP, _BOTTOM, _NAMES = 3.6, 4.0, 9.0, 56.0  # [mm]
 _BAR = 0.62  # height of a bar, over that of its row
 _FEWEST, _MOST = 4, 8  # rows, the others move the reaction less
 _LEAST = 0.002  # of the reaction, by which a change that is drawn moves it
-#: Share by which impact height and pier frequency change, or the nearest calculated.
-NEAR = 0.1
 _LINE: dict[str, Any] = {"edgecolor": INK, "linewidth": 0.5}
 _LESS: dict[str, Any] = _LINE | {"facecolor": SKY}
 _MORE: dict[str, Any] = _LINE | {"facecolor": BLUE}

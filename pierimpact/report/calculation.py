@@ -244,8 +244,19 @@ class Calculation:
         """
         if not self.band.spread:
             return None
-        low, middle, high = quantiles(np.fmax.reduce(self._sampled_reactions)).tolist()
+        low, middle, high = quantiles(self._largest_sampled).tolist()
         return low, middle, high
+
+    @property
+    def share_above(self) -> float:
+        """Share of the sampled trucks whose reaction is above the design reaction [-]."""
+        return float(np.mean(self._largest_sampled > self.design_force))
+
+    @cached_property
+    def _largest_sampled(self) -> Array:
+        """The larger reaction of all impacts, of each sampled truck."""
+        largest: Array = np.fmax.reduce(self._sampled_reactions)
+        return largest
 
     @cached_property
     def _sampled_reactions(self) -> list[Array]:
@@ -320,24 +331,44 @@ class Calculation:
         ]
         return max(found, key=lambda own: abs(own[0].value), default=None)
 
-    @cached_property
-    def yielding(self) -> CollisionHistory | None:
-        """The collision with a pier that yields at its moment resistance; None where it does not.
+    @property
+    def parts(self) -> list[tuple[float, float]]:
+        """From where to where each part of the column goes; none where its section is one [m]."""
+        stretches = self.case.column.stretches
+        several = len({section for section, _, _ in stretches}) > 1
+        return [(low, high) for _, low, high in stretches] if several else []
 
-        None also where the case gives no moment resistance.
+    def largest_within(self, name: str, low: float, high: float) -> Demand:
+        """Return the largest "shear" or "moment" from one height to another, of all impacts."""
+        parts = [
+            (impact.member_forces, impact.beam_forces and impact.beam_forces.between(low, high))
+            for impact in self.impacts
+        ]
+        return Demand(
+            max(getattr(forces, f"{name}_within")(low, high) for forces, _ in parts),
+            max(
+                (abs(getattr(own, f"{name}_extremes").governing.value) for _, own in parts if own),
+                default=None,
+            ),
+            self.case.inputs.member_forces,
+        )
+
+    @cached_property
+    def yielding(self) -> tuple[StruckColumn, CollisionHistory] | None:
+        """The column and the collision in which it yields in bending; None where it does not.
+
+        By the static reaction at the height where that exceeds the moment resistance most. None
+        also where the case gives no moment resistance.
         """
-        resistance = self.case.inputs.moment_resistance
+        resistance = self.resistances.get("moment")
         if resistance is None:
             return None
-        yields = {
-            impact.reaction / limit: replace(impact.history.pier, yield_reaction=limit)
-            for impact in self.impacts
-            for limit in [impact.struck.yield_reaction(resistance)]
-        }
-        most = max(yields)
-        if most <= 1.0:
+        most = max(self.impacts, key=lambda impact: abs(impact.member_forces.largest_moment.value))
+        limit = most.struck.yield_reaction(resistance)
+        if most.reaction <= limit:
             return None
-        return simulate(self.case.truck, yields[most], self.case.inputs.speed)
+        pier = replace(most.history.pier, yield_reaction=limit)
+        return most.struck, simulate(self.case.truck, pier, self.case.inputs.speed)
 
     @cached_property
     def average_forces(self) -> dict[float, AverageForce]:
@@ -361,6 +392,12 @@ class Calculation:
                 forces = None
             effects.append(CodeEffect(code, height, forces))
         return effects
+
+    @cached_property
+    def aashto_effect(self) -> CodeEffect:
+        """What the force of AASHTO LRFD does to the column."""
+        code = aashto_lrfd().code
+        return next(effect for effect in self.code_effects if effect.code.code == code)
 
     def utilisations_under(self, forces: MemberForces) -> dict[str, float]:
         """Return what these member forces come to, as `utilisations` do."""

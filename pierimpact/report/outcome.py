@@ -31,6 +31,7 @@ def statement(calculation: Calculation) -> str:
             f"The column must resist a shear of {shear} and a moment of {moment}. The case "
             "gives no resistance: nothing is checked against it."
         )
+    of_all = ", of one resistance for all parts" if calculation.parts else ""
     missing = "".join(f" The {name} is not checked." for name in DEMANDS if name not in ratios)
     failing = {name: ratio for name, ratio in ratios.items() if ratio > 1.0}
     beyond = {
@@ -38,9 +39,9 @@ def statement(calculation: Calculation) -> str:
     }
     if failing:
         more = f"; at the upper end of the band {listed(beyond)}, too" if beyond else ""
-        return f"The column does not hold: utilisation {listed(failing)}{more}.{missing}"
+        return f"The column does not hold: utilisation {listed(failing)}{more}{of_all}.{missing}"
     checked = " as far as it is checked" if missing else ""
-    holds = f"The column holds this truck{checked}: utilisation {listed(ratios)}"
+    holds = f"The column holds this truck{checked}: utilisation {listed(ratios)}{of_all}"
     if not at_upper:
         return f"{holds}, if the truck is known exactly.{missing}"
     if beyond:
@@ -49,6 +50,14 @@ def statement(calculation: Calculation) -> str:
             f"of the band.{missing}"
         )
     return f"{holds}; {listed(at_upper)} at the upper end of the band.{missing}"
+
+
+def mark(calculation: Calculation) -> str:
+    """Return what stands before that sentence: "STOP", "CAUTION" or nothing."""
+    if any(ratio > 1.0 for ratio in calculation.utilisations.values()):
+        return "STOP"
+    beyond = any(ratio > 1.0 for ratio in calculation.upper_utilisations.values())
+    return "CAUTION" if beyond else ""
 
 
 def verdict(ratio: float, at_upper: float | None) -> str:
@@ -77,13 +86,14 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
         f"{'' if result.checked_by_hand else ', which is no check here'}",
     )
     if result.reaction_band is not None:
-        low, _, high = (shown(value, "force").number for value in result.reaction_band)
+        low, middle, high = (shown(value, "force").number for value in result.reaction_band)
         larger = ", of each truck the larger of both heights" if len(result.impacts) > 1 else ""
         yield FirstResult(
             "Band, 5 to 95 %",
             Printed(f"{low}–{high}", unit_of("force", system)),
-            f"as the truck’s parameters{_but_for(result)} vary within their spread{larger}; "
-            f"{_moved_most(result)}",
+            f"as the truck’s parameters{_but_for(result)} vary within their spread{larger}: half "
+            f"above {middle}, {rounded(100.0 * result.share_above, 2)} % above the design "
+            f"reaction; {_moved_most(result)}",
         )
     for (name, demand), value in zip(result.demands.items(), _largest(result), strict=True):
         of_static = (
@@ -110,8 +120,7 @@ def first_results(calculation: Calculation) -> Iterator[FirstResult]:
 
 def _under_code(calculation: Calculation) -> str:
     """Return what the force of AASHTO LRFD alone comes to, where something is checked."""
-    name = aashto_lrfd().code
-    _, height, forces = next(own for own in calculation.code_effects if own.code.code == name)
+    _, height, forces = calculation.aashto_effect
     if forces is None or not calculation.resistances:
         return ""
     ratios = calculation.utilisations_under(forces)

@@ -9,6 +9,7 @@ from pierimpact.files.inputs import NOT_GIVEN
 from pierimpact.files.plausible import unusual
 from pierimpact.pier.static_forces import TOO_LOW
 from pierimpact.report.calculation import Calculation
+from pierimpact.report.outcome import listed
 from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, compared, printed, rounded, stated, unit_of, unit_size
 from pierimpact.vehicle.truck import another_truck
@@ -16,6 +17,8 @@ from pierimpact.vehicle.truck import another_truck
 #: Width of a truck, which spreads at 45° to either side from the impact down to the ground; a
 #: column wider than that is a wall: this project's choice [m].
 TRUCK_WIDTH = 2.5
+# Share of the sampled trucks beyond which a reaction is low among theirs: this project's choice.
+_LOW_IN_BAND = 0.67
 
 
 def warnings_of(calculation: Calculation) -> list[str]:
@@ -31,8 +34,11 @@ def warnings_of(calculation: Calculation) -> list[str]:
 def warnings_beside_verdict(calculation: Calculation) -> list[str]:
     """Return the same but for what the verdict says: what fails."""
     return [
+        *_under_code(calculation),
+        *_one_resistance(calculation),
         *_smaller_asked(calculation),
         *_too_low(calculation),
+        *_low_in_band(calculation),
         *_wall(calculation),
         *_another_truck(calculation),
         *_unusual(calculation),
@@ -46,6 +52,53 @@ def _exceeded(calculation: Calculation) -> Iterator[str]:
     for name, ratio in calculation.utilisations.items():
         if ratio > 1.0:
             yield f"The {name} is {compared(ratio)} times the resistance."
+
+
+def _under_code(calculation: Calculation) -> Iterator[str]:
+    """Yield what holds this truck, and not the force of AASHTO LRFD."""
+    code, height, forces = calculation.aashto_effect
+    if forces is None:
+        return
+    kept = calculation.utilisations
+    beyond = {
+        name: ratio
+        for name, ratio in calculation.utilisations_under(forces).items()
+        if ratio > 1.0 >= kept[name]
+    }
+    if beyond:
+        system = calculation.case.inputs.units
+        force = printed(code.along.value, "force", system, given=True)
+        place = printed(height, "length", system, given=True)
+        yield (
+            f"The force of {code.code} alone, {force} at {place}, exceeds the resistance: "
+            f"utilisation {listed(beyond)}."
+        )
+
+
+def _one_resistance(calculation: Calculation) -> Iterator[str]:
+    """Yield where parts of different sections are held against the same resistance."""
+    parts = calculation.parts
+    if not (parts and calculation.resistances):
+        return
+    system = calculation.case.inputs.units
+    places = []
+    for name in calculation.resistances:
+        low, high = max(parts, key=lambda ends: calculation.largest_within(name, *ends).value)
+        ends = [printed(end, "length", system, given=True) for end in (low, high)]
+        places.append(f"the largest {name} is between {ends[0].number} and {ends[1]}")
+    yield (
+        "One resistance is held against all parts of the column, whose sections differ: "
+        f"{', '.join(places)}. The table of member forces has those of each part."
+    )
+
+
+def _low_in_band(calculation: Calculation) -> Iterator[str]:
+    """Yield where most of the sampled trucks give more than the truck of the case."""
+    if calculation.band.spread and calculation.share_above > _LOW_IN_BAND:
+        yield (
+            f"{rounded(100.0 * calculation.share_above, 2)} % of the sampled trucks give a larger "
+            "reaction than the truck of the case: the design reaction lies low in its band."
+        )
 
 
 def _smaller_asked(calculation: Calculation) -> Iterator[str]:
@@ -166,6 +219,11 @@ def _revisions(calculation: Calculation) -> Iterator[str]:
         yield "The case has a table of revisions, and does not say of which revision it is."
     elif listed and inputs.revision not in listed:
         yield f"The table of revisions has no line for revision {inputs.revision}, of which it is."
+    elif listed and inputs.date != inputs.revision_date:
+        yield (
+            f"The sheet is of {inputs.date}, its revision {inputs.revision} of "
+            f"{inputs.revision_date}."
+        )
     if earlier is None:
         return
     before = earlier.case.inputs

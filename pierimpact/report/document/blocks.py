@@ -72,7 +72,7 @@ class Verdict(Block):
     """What the sheet comes to: a sentence, and a drawing beside the results in large type."""
 
     statement: Inline
-    stops: bool  #: whether it says no
+    mark: str  #: "STOP" where it says no, "CAUTION" where it says but, or ""
     svg: str
     alt: str  #: description of the drawing for readers who cannot see it
     results: Sequence[tuple[str, Printed, Inline]]  #: label, value and remark of each

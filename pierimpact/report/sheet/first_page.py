@@ -17,6 +17,7 @@ from pierimpact.report.outcome import (
     METHODS,
     first_results,
     listed,
+    mark,
     statement,
     verdict,
 )
@@ -70,7 +71,7 @@ class FirstPage(Section):
         reaction = self.shown(result.design_force, "force")
         return Verdict(
             statement=statement(result),
-            stops=any(ratio > 1.0 for ratio in result.utilisations.values()),
+            mark=mark(result),
             svg=draw_situation(
                 self.case.column,
                 struck.impact_height,
@@ -118,18 +119,13 @@ class FirstPage(Section):
                 METHODS[demand.method],
             ]
             if resistance is None:
-                rows.append([*cells, "not given", "", "", "not checked"])
+                rows.append([*cells, "not given", "", *([""] if upper else []), "not checked"])
                 continue
-            ratio, at_upper = result.utilisations[name], upper.get(name)
-            rows.append(
-                [
-                    *cells,
-                    self.number(resistance, quantity, given=True),
-                    compared(ratio),
-                    "" if at_upper is None else compared(at_upper),
-                    verdict(ratio, at_upper),
-                ]
-            )
+            ratio = result.utilisations[name]
+            cells += [self.number(resistance, quantity, given=True), compared(ratio)]
+            if upper:
+                cells.append(compared(upper[name]))
+            rows.append([*cells, verdict(ratio, upper.get(name))])
         return Table(
             label="tab-utilisation",
             caption="Largest member force over its resistance, by the method that "
@@ -141,39 +137,46 @@ class FirstPage(Section):
                 "Governs" if larger else "Checked by",
                 decimal("Resistance"),
                 decimal("Utilisation"),
-                decimal("at 95 %"),
+                *([decimal("at 95 %")] if upper else []),
                 wide("Verdict"),
             ),
             rows=rows,
             strong=[
                 number
                 for number, name in enumerate(DEMANDS)
-                if result.utilisations.get(name, 0.0) > 1.0
+                if max(result.utilisations.get(name, 0.0), upper.get(name, 0.0)) > 1.0
             ],
         )
 
     def contacts(self) -> Block | None:
         """Return which contacts are not made; None where both are."""
         history, band = self.calculation.history, self.calculation.band
-        share = band.cargo_contact if band.spread else 0.0
-        others = (
-            f" The cargo of {rounded(100.0 * share, 2)} % of the sampled trucks does."
-            if share
-            else ""
+        engine, cargo = (
+            time is not None for time in (history.engine_contact_time, history.cargo_contact_time)
         )
-        if history.cargo_contact_time is None and history.engine_contact_time is None:
-            return Paragraph(
-                "Neither engine nor cargo reaches the pier: the reaction is the pier’s response to "
-                f"crumpling sheet metal alone, and there is no cargo peak.{others}"
-            )
-        if history.cargo_contact_time is None:
-            return Paragraph(f"The cargo does not reach the pier: there is no cargo peak.{others}")
-        if history.engine_contact_time is None:
-            return Paragraph(
-                "The engine does not reach the pier before the cargo does: the peak before is the "
-                "pier’s response to crumpling sheet metal alone."
-            )
-        return None
+        if engine and cargo:
+            return None
+        words = {
+            (False, False): "Neither engine nor cargo reaches the pier: the reaction is the pier’s "
+            "response to crumpling sheet metal alone, and there is no cargo peak.",
+            (True, False): "The cargo does not reach the pier: there is no cargo peak.",
+            (False, True): "The engine does not reach the pier before the cargo does: the peak "
+            "before is the pier’s response to crumpling sheet metal alone.",
+        }[engine, cargo]
+        shares = {}
+        if band.spread and not engine:
+            shares["engine"] = band.engine_contact
+        if band.spread and not cargo:
+            shares["cargo"] = band.cargo_contact
+        others = [
+            f"the {body} of {rounded(100.0 * share, 2)} %"
+            for body, share in shares.items()
+            if share
+        ]
+        if others:
+            do = "do" if len(others) > 1 else "does"
+            words += f" Of the sampled trucks {' and '.join(others)} {do}."
+        return Paragraph(words)
 
     def warnings(self) -> Block:
         """Return what a reader must know first before relying on the results."""

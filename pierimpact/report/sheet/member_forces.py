@@ -6,13 +6,21 @@ import numpy as np
 
 from pierimpact.plots.envelopes import draw_envelopes
 from pierimpact.report.calculation import Demand
-from pierimpact.report.document.blocks import Block, Paragraph
+from pierimpact.report.document.blocks import Block, Group, Paragraph
 from pierimpact.report.document.markup import Inline, Tex
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal
 from pierimpact.report.outcome import DEMANDS
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
 from pierimpact.units import rounded
+
+_MODES = 8  # that are listed: this project's choice
+# Of a column whose moment is exceeded as a beam, and not under the static reaction.
+_UNKNOWN = (
+    "As a beam the column exceeds its moment resistance; under the reaction as a static force it "
+    "does not. How much ductility that takes is not known: the pier of one degree of freedom, "
+    "whose yielding this sheet follows, stays elastic."
+)
 
 
 class MemberForces(Section):
@@ -32,29 +40,77 @@ class MemberForces(Section):
 
     def symbols(self) -> dict[str, str]:
         """Return the anchors of the symbols of the member forces, by name."""
-        yields = {"Ry": "tab-yielding"} if self.yielding() else {}
+        yields = {"Ry": "tab-yielding"} if isinstance(self.yielding(), Table) else {}
         return {"V_max": "tab-members", "M_max": "tab-members"} | yields
 
     def methods(self) -> Block:
         """Return by which methods they are calculated, and where they belong."""
-        both = self.calculation.governing.beam is not None
+        beam = self.calculation.governing.beam
+        in_modes = ""
+        if beam is not None:
+            highest = self.shown(float(beam.frequencies[-1]), "frequency")
+            in_modes = (
+                "; and the same collision with the column as a beam, with flexure, shear and "
+                f"rotary inertia in its {len(beam.frequencies)} natural modes up to {highest}, "
+                "each with the damping ratio of the pier"
+            )
         return Paragraph(
             (
-                f"By {'two methods' if both else 'one method, which the case asks for'}: the "
+                f"By {'two methods' if beam else 'one method, which the case asks for'}: the "
                 "reaction as a static force at ",
                 Tex(r"z_\mathrm{n}"),
-                ", with the mass of the column at rest"
-                + (
-                    "; and the same collision with the column as a beam, with flexure, shear and "
-                    "rotary inertia in its natural modes"
-                    if both
-                    else ""
-                )
-                + ". They are those of the collision alone and belong in the accidental "
+                f", with the mass of the column at rest{in_modes}. They are those "
+                "of the collision alone and belong in the accidental "
                 "combination of the code that governs (Extreme Event II of AASHTO LRFD, the "
                 "accidental situation of EN 1990; both from memory).",
             )
         )
+
+    def modes(self) -> Block | None:
+        """Return the natural modes of the column as a beam; None where it was not calculated."""
+        beam = self.calculation.governing.beam
+        if beam is None:
+            return None
+        shares = (
+            100.0
+            * beam.equivalent.stiffness
+            * (beam.impact_deflection / beam.circular_frequencies) ** 2
+        )
+        shown = beam.frequencies[:_MODES]
+        rows: list[list[Inline]] = [
+            [str(number), self.number(float(frequency), "frequency"), rounded(float(share), 3)]
+            for number, (frequency, share) in enumerate(zip(shown, shares, strict=False), 1)
+        ]
+        rows.append(["all others", "", rounded(float(shares[len(shown) :].sum()), 3)])
+        words = Paragraph(
+            (
+                "Each natural mode, normalised to unit mass, is an oscillator under the contact "
+                "force: ",
+                Tex(
+                    r"\ddot{q} + 2 \zeta \omega \dot{q} + \omega^2 q = "
+                    r"\varphi(z_\mathrm{n}) \, F"
+                ),
+                ". Deflection, shear and moment of the column are the sums of those of the modes, "
+                "each times its ",
+                Tex("q"),
+                "; what the modes left out add to the deflection under a static force follows the "
+                "contact force at once. The frequencies, and how much of the deflection under a "
+                "static force at the impact is each mode’s, ",
+                Tex(r"k_\mathrm{p} \, \varphi(z_\mathrm{n})^2 / \omega^2"),
+                ", are to be compared with those of any beam program.",
+            )
+        )
+        table = Table(
+            label="tab-modes",
+            caption="Natural modes of the column as a beam.",
+            columns=columns(
+                "Mode",
+                decimal(f"Frequency [{self.unit('frequency')}]"),
+                decimal("Share of the deflection [%]"),
+            ),
+            rows=rows,
+        )
+        return Group([words, table])
 
     def table(self) -> Block:
         """Return shear and moment at base, impact and top, and the largest, by both methods."""
@@ -82,16 +138,8 @@ class MemberForces(Section):
                 ]
             )
         several = len(result.impacts) > 1
-        for impact in result.impacts if several else ():
-            height = self.stated(impact.struck.impact_height, "length")
-            rows += [
-                self._largest(name, impact.demands[name], f", struck at {height}")
-                for name in DEMANDS
-            ]
-        rows += [
-            self._largest(name, result.demands[name], " of both" if several else "")
-            for name in DEMANDS
-        ]
+        of_both = " of both" if several else ""
+        rows += [self._largest(name, result.demands[name], of_both) for name in DEMANDS]
         by_beam = (
             ()
             if result.governing.beam_forces is None
@@ -108,6 +156,49 @@ class MemberForces(Section):
             ),
             rows=rows,
             strong=[len(rows) - 2, len(rows) - 1],
+        )
+
+    def places(self) -> Block | None:
+        """Return the largest shear and moment by impact height and by part of the column.
+
+        None where there is one of either.
+        """
+        result = self.calculation
+        several = len(result.impacts) > 1
+        found = [
+            (f"Struck at {self.stated(impact.struck.impact_height, 'length')}", impact.demands)
+            for impact in (result.impacts if several else ())
+        ]
+        for low, high in result.parts:
+            ends = [self.shown(end, "length", given=True) for end in (low, high)]
+            demands = {name: result.largest_within(name, low, high) for name in DEMANDS}
+            found.append((f"From {ends[0].number} to {ends[1]}", demands))
+        if not found:
+            return None
+        by_beam = result.governing.beam is not None
+        rows: list[list[Inline]] = [
+            [
+                words,
+                *(
+                    self.number(value, DEMANDS[name])
+                    for name, demand in demands.items()
+                    for value in ((demand.static, demand.beam) if by_beam else (demand.static,))
+                ),
+            ]
+            for words, demands in found
+        ]
+        heads = [
+            decimal(f"{name.capitalize()}, {method} [{self.unit(quantity)}]")
+            for name, quantity in DEMANDS.items()
+            for method in (("static", "beam") if by_beam else ("static",))
+        ]
+        each = [*(["impact height"] if several else []), *(["part"] if result.parts else [])]
+        return Table(
+            label="tab-places",
+            caption=f"Largest shear and moment of each {' and of each '.join(each)}"
+            f"{', struck at either height' if several and result.parts else ''}.",
+            columns=columns("Column", *heads),
+            rows=rows,
         )
 
     def _beam_at(self, corner: int, quantity: str) -> list[Inline]:
@@ -208,20 +299,34 @@ class MemberForces(Section):
 
         None also where the case gives no moment resistance.
         """
-        history, inputs = self.calculation.yielding, self.case.inputs
-        if history is None or inputs.moment_resistance is None:
-            return None
-        moment = inputs.moment_resistance / history.pier.yield_reaction
-        largest = history.ductility * history.pier.yield_reaction / history.pier.stiffness
+        result, found = self.calculation, self.calculation.yielding
+        resistances, exceeded = result.resistances, result.demands["moment"]
+        by_beam = exceeded.method == "beam" and result.utilisations.get("moment", 0.0) > 1.0
+        if found is None:
+            return Paragraph(_UNKNOWN) if by_beam else None
+        struck, history = found
+        yields = history.pier.yield_reaction
+        moment = resistances["moment"] / yields
+        shear = abs(struck.member_forces(yields).largest_shear.value)
+        if shear > resistances.get("shear", math.inf):
+            times = rounded(shear / resistances["shear"], 3)
+            return Paragraph(
+                f"The column does not yield in bending before it fails in shear: under "
+                f"{self.shown(yields, 'force')}, at which the moment resistance is reached, the "
+                f"shear is {times} times its resistance. There is no ductility to count on."
+            )
+        largest = history.ductility * yields / history.pier.stiffness
         energy = history.pier_plastic_energy
         share = rounded(100.0 * energy / history.collision.energy, 3)
         most = r"\left| M \right|_\mathrm{max}"
         ductility = r"\left| x_\mathrm{p} \right|_\mathrm{max} \, k_\mathrm{p} / R_\mathrm{y}"
         taken = f"Energy taken by yielding, {share} % of the truck’s"
         rows = [
-            ("Yield reaction", rf"R_\mathrm{{y}} = M_\mathrm{{R}} / {most}",
-             self.shown(history.pier.yield_reaction, "force")),
             ("Largest moment under a unit force", most, self.shown(moment, "length")),
+            ("Yield reaction", rf"R_\mathrm{{y}} = M_\mathrm{{R}} / {most}",
+             self.shown(yields, "force")),
+            ("Stiffness of the pier", r"k_\mathrm{p}",
+             self.shown(history.pier.stiffness, "stiffness")),
             ("Largest displacement at the impact", r"x_\mathrm{p}",
              self.shown(largest, "section length")),
             ("Ductility demand", ductility, (rounded(history.ductility, 3), "")),
@@ -229,15 +334,22 @@ class MemberForces(Section):
              self.shown(history.residual_displacement, "section length")),
             (taken, "", self.shown(energy, "energy")),
         ]  # fmt: skip
+        height = self.stated(struck.impact_height, "length")
+        at_height = f", struck at {height}," if len(result.impacts) > 1 else ""
         return Table(
             label="tab-yielding",
-            caption="If the column yields in bending: the full model, elastic up to the reaction "
-            "at which the moment resistance is first reached and perfectly plastic from there. A "
-            "redundant column carries more until it is a mechanism. How much ductility the section "
-            "has is not checked; shear is not ductile.",
+            caption=f"If the column{at_height} yields in bending: the full model, elastic up to "
+            "the reaction at which the moment resistance is first reached and perfectly plastic "
+            "from there. A redundant column carries more until it is a mechanism. How much "
+            "ductility the section has is not checked; shear is not ductile."
+            + (
+                " The moment of the beam, which governs, is larger, and the demand may be."
+                if by_beam
+                else ""
+            ),
             columns=columns("Quantity", "Symbol", decimal("Value"), "Unit"),
             rows=[[name, Tex(symbol) if symbol else "", *shown] for name, symbol, shown in rows],
-            strong=[3],
+            strong=[4],
         )
 
     def _signed_bands(self) -> dict[str, tuple[float, float]]:

@@ -1,9 +1,9 @@
 """What moves the reaction most, and, in an annex, how it changes with all that it depends on."""
 
-from pierimpact.design.sensitivity import MASS_CHANGE
+from pierimpact.design.sensitivity import MASS_CHANGE, NEAR
 from pierimpact.plots.band import draw_band
 from pierimpact.plots.figures import draw_sensitivity
-from pierimpact.plots.tornado import NEAR, draw_tornado
+from pierimpact.plots.tornado import draw_tornado
 from pierimpact.report.document.blocks import Block
 from pierimpact.report.document.markup import Inline
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal

@@ -2,6 +2,8 @@
 
 from itertools import chain
 
+import numpy as np
+
 from pierimpact.design.procedure import short
 from pierimpact.design.reaction import DesignReaction
 from pierimpact.plots.spectra import draw_spectra
@@ -38,7 +40,7 @@ class SpectrumMethod(Section):
     def spectra(self) -> Block:
         """Return the engine's and the cargo's reaction against pier frequency."""
         result, frequency = self.calculation, self.calculation.pier.frequency
-        history = result.history
+        history, spectrum = result.history, result.sensitivity.frequency
         pier, first, cargo = (
             self.shown(frequency, "frequency"),
             history.before_cargo,
@@ -53,14 +55,15 @@ class SpectrumMethod(Section):
             if cargo is None
             else f"a cargo peak of {self.shown(cargo.reaction, 'force')}"
         )
+        bodies = f"{first} and cargo" if np.isfinite(spectrum.cargo).any() else first
         return Figure(
             label="fig-spectra",
-            caption=f"Reaction against pier frequency at this pier’s mass and damping: {first} and "
-            f"cargo by the full model, and dashed by the spectrum method. This pier, {pier}, is "
-            "marked.",
+            caption=f"Reaction against pier frequency at this pier’s mass and damping: {bodies} by "
+            f"the full model, and dashed by the spectrum method. This pier, {pier}, is marked; "
+            "dotted, where what governs changes.",
             alt=f"Spectra of {first} and cargo reaction. At this pier’s {pier} the full model "
             f"gives {words}.",
-            svg=draw_spectra(result.sensitivity.frequency, frequency, self.system),
+            svg=draw_spectra(spectrum, frequency, self.system),
         )
 
     def starting_values(self) -> Block:
