@@ -240,6 +240,13 @@ def test_influences_are_the_packages(speed):
         most = np.nan_to_num(np.abs(expected), nan=math.inf).max(axis=1)
         name = chart["rows"][int(most.argmax())]["name"].split(": ")[-1]
         assert name in found["words"]
+        vanishing = [
+            row["name"].split(": ")[-1]
+            for row, change in zip(chart["rows"], most, strict=True)
+            if math.isinf(change)
+        ]
+        assert all(each in found["words"] for each in vanishing)
         assert inside(expected[np.isfinite(expected)], chart["x"])
         for row, pair in zip(chart["rows"], expected, strict=True):
-            assert row["words"] == ("no peak" if np.isnan(pair).any() else "")
+            gone = [side for side, value in zip("−+", pair, strict=True) if np.isnan(value)]
+            assert row["words"] == ", ".join(f"{side}30 %: no peak" for side in gone)

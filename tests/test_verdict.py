@@ -128,7 +128,7 @@ def test_one_resistance_for_parts_that_differ_is_said_to_be_so():
     assert "of one resistance for all parts" in statement(sheet.calculation)
     first, *_ = warnings_beside_verdict(sheet.calculation)
     assert "One resistance is held against all parts" in first
-    assert "the largest shear is between 0 and 2.5 m" in first
+    assert "the largest shear and moment between 0 and 2.5 m" in first
     same = Sheet(case_from(STEPPED | {"steps": [STEPPED["steps"][0] | {"column_diameter": "2 m"}]}))
     assert "for all parts" not in statement(same.calculation)
     assert same.member_forces.places() is None

@@ -81,14 +81,17 @@ def _one_resistance(calculation: Calculation) -> Iterator[str]:
     if not (parts and calculation.resistances):
         return
     system = calculation.case.inputs.units
-    places = []
+    names: dict[tuple[float, float], list[str]] = {}
     for name in calculation.resistances:
-        low, high = max(parts, key=lambda ends: calculation.largest_within(name, *ends).value)
-        ends = [printed(end, "length", system, given=True) for end in (low, high)]
-        places.append(f"the largest {name} is between {ends[0].number} and {ends[1]}")
+        part = max(parts, key=lambda ends: calculation.largest_within(name, *ends).value)
+        names.setdefault(part, []).append(name)
+    places = []
+    for part, own in names.items():
+        low, high = (printed(end, "length", system, given=True) for end in part)
+        places.append(f"the largest {' and '.join(own)} between {low.number} and {high}")
     yield (
         "One resistance is held against all parts of the column, whose sections differ: "
-        f"{', '.join(places)}. The table of member forces has those of each part."
+        f"{', '.join(places)}. A table with the member forces has those of each part."
     )
 
 

@@ -120,7 +120,7 @@ function withRoom(x, rows, room) {
 /**
  * Draw bars in rows.
  *
- * chart: { title, x: axis { label, low, high, unit: of a tick }, rows: [{ name, bars: [{ value,
+ * chart: { title, x: axis { label, low, high, unit: of a tick, most: above which there is none }, rows: [{ name, bars: [{ value,
  *   style }], words }], key: [{ name, style }] }; a value of null has no bar.
  */
 export function drawBars(svg, { title, x, rows, key: names = [], empty = "" }) {
@@ -129,7 +129,7 @@ export function drawBars(svg, { title, x, rows, key: names = [], empty = "" }) {
   const right = width - RIGHT, foot = height - BOTTOM, room = right - left;
   const [axis, said] = withRoom(x, rows, room), X = scale(axis, left, right);
   const { items: drawing } = heading(title, names, right);
-  for (const value of marksOf(axis, room / 60)) {
+  for (const value of marksOf(axis, room / 60).filter((each) => each <= (x.most ?? Infinity))) {
     drawing.push(element("line", { x1: X(value), x2: X(value), y1: TOP, y2: foot, class: value ? "grid" : "axis" }),
       text(`${written(value)}${x.unit ?? ""}`, X(value), foot + 17, "tick"));
   }
@@ -143,8 +143,10 @@ export function drawBars(svg, { title, x, rows, key: names = [], empty = "" }) {
       const [a, b] = [X(0), X(value)].sort((p, q) => p - q);
       drawing.push(element("rect", { x: a, y: y + 4, width: b - a, height: BAR - 8, class: `bar ${style}` }));
     }
-    const end = Math.max(X(0), ...bars.map(({ value }) => X(value ?? 0))) + 6;
-    if (said[n]) words.push(tag(said[n], Math.min(end, right - LETTER * said[n].length), middle, "value", "start"));
+    const ends = [X(0), ...bars.map(({ value }) => X(value ?? 0))], long = LETTER * said[n].length;
+    const below = Math.max(...ends) + 6 + long > right && Math.min(...ends) - 6 - long > left; // room on that side only
+    const [at, anchor] = below ? [Math.min(...ends) - 6, "end"] : [Math.min(Math.max(...ends) + 6, right - long), "start"];
+    if (said[n]) words.push(tag(said[n], at, middle, "value", anchor));
   });
   inLines(empty, room).forEach((line, n) => words.push(text(line, 0.5 * (left + right), 0.5 * (TOP + foot) + n * ROW, "label")));
   svg.replaceChildren(...drawing, ...words);

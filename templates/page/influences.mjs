@@ -49,7 +49,7 @@ export function influences({ collision, setup: { symbols, parameters, change } }
       rows: rows.map((row, n) => ({
         name: parameters[n].short,
         bars: row.map((value, side) => ({ value: value === null ? null : 100 * value, style: ["smaller", "larger"][side] })),
-        words: found[body] && row.includes(null) ? "no peak" : "",
+        words: found[body] ? row.flatMap((value, side) => (value === null ? `${"−+"[side]}${share} %: no peak` : [])).join(", ") : "",
       })),
       empty: found[body] ? "" : `The ${body} does not reach the pier.`,
     };
@@ -70,8 +70,9 @@ export function influences({ collision, setup: { symbols, parameters, change } }
 function mostSensitive(body, peak, rows, parameters) {
   if (!rows) return `The ${body} does not reach the pier: there is no peak to change.`;
   const largest = rows.map((row) => Math.max(...row.map((value) => (value === null ? Infinity : Math.abs(value)))));
-  const most = Math.max(...largest), { meaning } = parameters[largest.indexOf(most)];
+  const most = Math.max(...largest), names = parameters.filter((_, n) => largest[n] === most).map(({ meaning }) => `the ${meaning}`);
+  const listed = names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)}` : names[0];
   const how = most === Infinity ? "disappears" : `changes by ${Math.round(100 * most)} %`;
   const which = peak === "Sheet metal" ? "reaction to crumpling sheet metal" : peak.toLowerCase();
-  return `The ${which} is most sensitive to the ${meaning}: it ${how}.`;
+  return `The ${which} is most sensitive to ${listed}: it ${how}.`;
 }

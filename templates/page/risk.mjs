@@ -105,7 +105,7 @@ function bars(title, limits, unit, of, above, every) {
   const names = limits.map((limit, n) => (n ? `${limits[n - 1]}–${limit} ${unit}` : `below ${limit} ${unit}`));
   const contribution = classes(of, limits, above), hits = classes(of, limits, every), some = sum(above) > 0;
   return {
-    kind: "bars", title, x: { label: "Share of those above the resistance", low: 0, high: 100, unit: " %" },
+    kind: "bars", title, x: { label: "Share of those above the resistance", low: 0, high: 100, unit: " %", most: 100 },
     rows: [...names, `above ${limits.at(-1)} ${unit}`].map((name, n) => ({
       name, bars: [{ value: some ? 100 * contribution[n] : null, style: "larger" }],
       words: some ? `${Math.round(100 * contribution[n])} %: ${Math.round(100 * hits[n])} % of hits` : "",
