@@ -97,7 +97,7 @@ def _draw(
     for name, found in marked.items():
         x, y = getattr(found, quantity.name), getattr(found, force)
         axes.plot([x], [y], "D", color=INK, markerfacecolor="white", markersize=5.0, zorder=7)
-        style.note(axes, name, (x, y), (6.0, -3.0), weight="bold", zorder=6, bbox=_LABEL)
+        style.note(axes, name, (x, y), (-3.5, 6.0), weight="bold", zorder=6, bbox=_LABEL)
     axes.set(xlabel=quantity.heading, xlim=quantity.span, yscale="log", ylim=_SPAN)
     style.logarithmic(axes, quantity.ticks)
     axes.set_yticks((0.2, 0.3, 0.5, 0.7, 1, 1.5, 2), ("0.2", "0.3", "0.5", "0.7", "1", "1.5", "2"))
