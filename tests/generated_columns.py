@@ -6,6 +6,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 from pierimpact import CircularSection, OblongSection, PierColumn, RectangularSection, Step
+from pierimpact.files.case import Part
 
 STABLE = [
     ("fixed", "fixed"),
@@ -29,6 +30,15 @@ sections = st.one_of(
     st.builds(RectangularSection, width=sizes, depth=sizes, shear_coefficient=shear_coefficients),
     st.builds(OblongSection, width=sizes, depth=sizes),
 )
+
+
+def resisting(column, *resistances):
+    """The parts of a column with the shear and moment resistance of each; None for none."""
+    names = ("shear", "moment")
+    return [
+        Part(low, high, section, {n: value for n, value in zip(names, own, strict=True) if value})
+        for (section, low, high), own in zip(column.stretches, resistances, strict=True)
+    ]
 
 
 def round_column(height, diameter, base="fixed", top="pinned", modulus=28e9, **extras):

@@ -85,6 +85,27 @@ def test_all_shapes_kept_are_the_same_beam():
         assert getattr(same, name) == pytest.approx(getattr(BEAM, name), rel=1e-12)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_part_of_a_beam_has_its_own_largest_forces(seed):
+    random, errors = np.random.default_rng(seed), []
+    for struck in struck_columns(12, seed=940 + seed):
+        truck, beam, speed = struck.case
+        low, high = np.sort(random.choice(np.unique(beam.z), 2, replace=False))
+        history = simulate(truck, beam, speed)
+        part = history.member_forces.between(low, high)
+        assert np.array_equal(part.z, beam.between(low, high).z)
+        assert (part.z[0], part.z[-1]) == (low, high)
+        exact_there = [
+            abs(extremes.governing.value)
+            for extremes in (part.shear_extremes, part.moment_extremes)
+        ]
+        found = by_steps(truck, beam.between(low, high), speed, 1.5 * history.end.time)
+        whole, _ = exact(truck, beam, speed)
+        errors.append((found - exact_there) / np.array(whole))
+        assert np.all(np.array(exact_there) <= np.array(whole) * (1.0 + 1e-12))
+    assert np.all(np.abs(errors) < 0.03)
+
+
 def test_blows_that_no_step_resolves():
     # They are over before the beam moves, and their impulse counts: only in shear waves is more.
     engine = CrushSpring(

@@ -96,8 +96,11 @@ def test_any_arrangement_agrees_with_the_stiffness_method(case):
     exact = np.array(exact, dtype=float)
     struck = column.struck_at(impact_height)
     largest = np.abs(exact).max()
-    np.testing.assert_allclose(struck.deflection(heights), exact, rtol=0.0, atol=1e-10 * largest)
-    assert 1.0 / struck.stiffness == pytest.approx(exact[heights.index(impact_height)], rel=1e-10)
+    # Round-off grows with what tells the stiffest part from the softest.
+    rigidities = [part.flexural_rigidity for part in column.arrangement.parts]
+    near = max(1e-10, 2.0 * np.finfo(float).eps * max(rigidities) / min(rigidities))
+    np.testing.assert_allclose(struck.deflection(heights), exact, rtol=0.0, atol=near * largest)
+    assert 1.0 / struck.stiffness == pytest.approx(exact[heights.index(impact_height)], rel=near)
     found = struck.member_forces(1.0)
     size = column.height + column.embedment
     # A support moment in the sense of dx/dz puts the far face in tension at the base, and the
@@ -108,7 +111,7 @@ def test_any_arrangement_agrees_with_the_stiffness_method(case):
         (found.base_moment, moments[0], size),
         (found.top_moment, -moments[1], size),
     ):
-        assert ours == pytest.approx(float(expected), rel=0.0, abs=1e-10 * unit)
+        assert ours == pytest.approx(float(expected), rel=0.0, abs=near * unit)
 
 
 @GENERATED

@@ -5,7 +5,7 @@ from unittest.mock import patch
 import pytest
 from figure_collisions import collisions
 from generated_collisions import collisions as generated
-from generated_columns import arranged_columns, round_column
+from generated_columns import arranged_columns, resisting, round_column
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
@@ -43,13 +43,13 @@ STEPPED = round_column(
     9.0, 1.8, top="free", top_mass=60e3, embedment=0.8, base_rotation_stiffness=20e9,
     steps=[Step(height=3.0, section=CircularSection(diameter=1.5))],
 )  # fmt: skip
-# Truck, column, impact height [m], speed [m/s], resistances [N, N m] and units.
+# Truck, column, impact height [m], speed [m/s], resistances of its parts [N, N m] and units.
 CASES = {
-    "usual": (TRUCKS[0], round_column(5.0, 0.9), 1.2, 22.0, (3e6, 4e6), "SI"),
-    "stepped": (TRUCKS[0], STEPPED, 1.2, 17.0, (3e6, 1.5e6), "SI"),
-    "tall": (TRUCKS[1], round_column(30.0, 2.0), 1.35, 28.0, (40e6, None), "US"),
-    "slow": (TRUCKS[0], round_column(3.0, 0.9, top="fixed"), 1.2, 2.8, (None, None), "US"),
-    "heavy": (TRUCKS[0].loaded_to(30e3), round_column(6.0, 1.1), 1.35, 25.0, (9e6, 9e6), "SI"),
+    "usual": (TRUCKS[0], round_column(5.0, 0.9), 1.2, 22.0, [(3e6, 4e6)], "SI"),
+    "stepped": (TRUCKS[0], STEPPED, 1.2, 17.0, [(3e6, 2.5e6), (2.5e6, 1.5e6)], "SI"),
+    "tall": (TRUCKS[1], round_column(30.0, 2.0), 1.35, 28.0, [(40e6, None)], "US"),
+    "slow": (TRUCKS[0], round_column(3.0, 0.9, top="fixed"), 1.2, 2.8, [(None, None)], "US"),
+    "heavy": (TRUCKS[0].loaded_to(30e3), round_column(6.0, 1.1), 1.35, 25.0, [(9e6, 9e6)], "SI"),
 }
 
 
@@ -135,6 +135,7 @@ def test_the_history_is_clear(number):
 @pytest.mark.parametrize("name", CASES)
 def test_what_rests_on_a_whole_calculation_is_clear(name):
     truck, column, height, speed, resistances, system = CASES[name]
+    parts = resisting(column, *resistances)
     struck = column.struck_at(height)
     pier = struck.equivalent(0.05)
     found, beam = (simulate(truck, own, speed) for own in (pier, column.beam(height)))
@@ -151,7 +152,7 @@ def test_what_rests_on_a_whole_calculation_is_clear(name):
     )
     bands = {"shear": (force * low, force * high), "moment": (-moment * low, -moment * high)}
     for drawn in (
-        figure_of(envelopes.draw_envelopes, impacts, resistances, bands, system, column),
+        figure_of(envelopes.draw_envelopes, impacts, parts, bands, system, column),
         figure_of(spectra.draw_spectra, changes.frequency, pier.frequency, system),
         figure_of(code_bars.draw_code_bars, codes, averages, reaction, (low, high), system),
         figure_of(tornado.draw_tornado, changes, band, reaction, system),

@@ -6,15 +6,15 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from generated_columns import round_column
+from generated_columns import resisting, round_column
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from pierimpact import load_truck, reaction_band, simulate
+from pierimpact import Step, load_truck, reaction_band, simulate
 from pierimpact.design.codes import code_forces
 from pierimpact.design.sensitivity import sensitivity
 from pierimpact.plots import code_bars, envelopes, history, shape, spectra, tornado, words
-from pierimpact.plots.style import VERMILION
+from pierimpact.plots.style import INK, VERMILION
 from pierimpact.units import QUANTITIES, unit_size
 
 TRUCK, COLUMN, HEIGHT, SPEED = load_truck("single-unit-8t"), round_column(6.0, 1.0), 1.3, 21.0
@@ -79,7 +79,9 @@ def test_the_envelopes_hold_those_of_every_impact(system):
         impacts.append((static, back, beam))
         beams.append(beam)
     bands = {"shear": (2e6, 7e6), "moment": (-1e6, -9e6)}
-    panels = axes_of(envelopes.draw_envelopes, impacts, (4e6, 1e6), bands, system, COLUMN)
+    panels = axes_of(
+        envelopes.draw_envelopes, impacts, resisting(COLUMN, (4e6, 1e6)), bands, system, COLUMN
+    )
     length = unit_size("length", system)
     for axes, name, kind in zip(panels, ("shear", "moment"), ("force", "moment"), strict=True):
         unit = unit_size(kind, system)
@@ -144,7 +146,7 @@ def test_the_widest_bar_is_on_top(changes, collision, system):
 
 def test_a_resistance_far_away_is_said_in_words():
     impact = COLUMN.member_forces(5e6, HEIGHT), COLUMN.member_forces(-2e6, HEIGHT), None
-    given = [impact], (9e9, 3e6), {}, "SI", COLUMN
+    given = [impact], resisting(COLUMN, (9e9, 3e6)), {}, "SI", COLUMN
     shear, moment = axes_of(envelopes.draw_envelopes, *given)
     assert "beyond this figure" in shear.get_xlabel()
     assert "beyond this figure" not in moment.get_xlabel()
@@ -153,11 +155,40 @@ def test_a_resistance_far_away_is_said_in_words():
     assert any(place == pytest.approx(3000.0) for place in places)
 
 
+@SYSTEMS
+def test_every_part_has_its_own_resistances_beside_it(system):
+    column = replace(
+        COLUMN,
+        steps=[Step(height=2.0, section=COLUMN.section), Step(height=4.5, section=COLUMN.section)],
+    )
+    impact = column.member_forces(5e6, HEIGHT), column.member_forces(-2e6, HEIGHT), None
+    parts = resisting(column, (5e6, 3e6), (3e6, None), (9e9, 2e6))
+    shear, moment = axes_of(envelopes.draw_envelopes, [impact], parts, {}, system, column)
+    metre = unit_size("length", system)
+    for axes, name, expected in ((shear, "force", [5e6, 3e6]), (moment, "moment", [3e6, 2e6])):
+        lines = {
+            tuple(line.get_xdata()): line.get_ydata()
+            for line in axes.lines
+            if to_hex(line.get_color()) == INK.lower() and line.get_linewidth() == 1.2
+        }
+        assert sorted(x for x, _ in lines) == pytest.approx(
+            sorted(side * own / unit_size(name, system) for own in expected for side in (-1, 1))
+        )
+        assert all(low == high for low, high in lines)
+    between = [
+        y for x, y in lines.items() if x[0] == pytest.approx(2e6 / unit_size("moment", system))
+    ]
+    assert between[0][0] == pytest.approx(4.5 / metre)
+    assert "beyond this figure" in shear.get_xlabel()
+
+
 def test_a_column_that_nothing_bends_has_an_axis_all_the_same():
     column = replace(COLUMN, top="free", base_stiffness=2e9)
     impact = column.member_forces(5e6, 0.0), column.member_forces(-2e6, 0.0), None
     assert float(np.max(np.abs(impact[0].moment))) == 0.0
-    for axes in axes_of(envelopes.draw_envelopes, [impact], (None, None), {}, "SI", column):
+    for axes in axes_of(
+        envelopes.draw_envelopes, [impact], resisting(column, (None, None)), {}, "SI", column
+    ):
         low, high = axes.get_xlim()
         assert low < 0.0 < high
 

@@ -79,7 +79,7 @@ def test_bands_are_drawn_on_the_side_of_what_governs(asked, monkeypatch):
     drawn = []
     monkeypatch.setattr(
         "pierimpact.report.sheet.member_forces.draw_envelopes",
-        lambda impacts, resistances, bands, *_: drawn.append(bands) or "",
+        lambda impacts, parts, bands, *_: drawn.append(bands) or "",
     )
     sheet = Sheet(case_from(EXAMPLE | {"member_forces": asked}))
     sheet.member_forces.diagrams()

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_arranged_sheet import number
 
-from pierimpact import EquivalentPier, load_truck, reaction_band, simulate
+from pierimpact import EquivalentPier, InputError, load_truck, reaction_band, simulate
 from pierimpact.files.case import case_from
 from pierimpact.report.outcome import first_results, statement
 from pierimpact.report.sheet import Sheet
@@ -127,11 +127,10 @@ def test_one_resistance_for_parts_that_differ_is_said_to_be_so():
     sheet = Sheet(case_from(STEPPED))
     assert "of one resistance for all parts" in statement(sheet.calculation)
     first, *_ = warnings_beside_verdict(sheet.calculation)
-    assert "One resistance is held against all parts" in first
-    assert "the largest shear and moment between 0 and 2.5 m" in first
+    assert "One shear and one moment resistance is held against all parts" in first
     same = Sheet(case_from(STEPPED | {"steps": [STEPPED["steps"][0] | {"column_diameter": "2 m"}]}))
     assert "for all parts" not in statement(same.calculation)
-    assert same.member_forces.places() is None
+    assert "One shear" not in " ".join(warnings_beside_verdict(same.calculation))
 
 
 @settings(max_examples=10)
@@ -141,11 +140,11 @@ def test_parts_have_their_own_largest_forces(height, diameter, impact_height):
     sheet = Sheet(case_from(STEPPED | {"steps": [step], "impact_height": impact_height}))
     result = sheet.calculation
     for name, demand in result.demands.items():
-        of_parts = [result.largest_within(name, *ends) for ends in result.parts]
+        of_parts = [result.demands_of(part)[name] for part in result.case.parts]
         assert max(own.static for own in of_parts) == pytest.approx(demand.static, rel=1e-12)
         assert max(own.beam for own in of_parts) == pytest.approx(demand.beam, rel=1e-12)
-        for (low, high), own in zip(result.parts, of_parts, strict=True):
-            places = np.linspace(low + 1e-9, high - 1e-9, 4001)
+        for part, own in zip(result.case.parts, of_parts, strict=True):
+            places = np.linspace(part.low + 1e-9, part.high - 1e-9, 4001)
             most = 0.0
             for impact in result.impacts:
                 forces, below = impact.member_forces, places < impact.struck.impact_height
@@ -158,14 +157,14 @@ def test_parts_have_their_own_largest_forces(height, diameter, impact_height):
                 most = max(most, np.abs(moments if name == "moment" else shears).max())
             assert own.static == pytest.approx(most, rel=1e-3, abs=1.0)
     rows = sheet.member_forces.places().rows
-    assert len(rows) == len(result.parts) + (2 if impact_height == "auto" else 0)
+    assert len(rows) == 2 + (2 if impact_height == "auto" else 0)
 
 
 def test_yielding_is_of_the_height_that_is_named():
     sheet = sheet_of(impact_height="auto", moment_resistance="3.1 MN*m")
     table = sheet.member_forces.yielding()
     values = {row[0]: number(row[2]) for row in table.rows}
-    struck, history = sheet.calculation.yielding
+    struck, _, history, _ = sheet.calculation.yielding
     assert f"struck at {struck.impact_height:g} m" in table.caption
     ductility = values["Largest displacement at the impact"] * values["Stiffness of the pier"]
     assert values["Ductility demand"] == pytest.approx(
@@ -178,7 +177,7 @@ def test_yielding_is_of_the_height_that_is_named():
 def test_what_fails_in_shear_first_has_no_ductility():
     sheet = sheet_of(moment_resistance="3.1 MN*m", shear_resistance="2.4 MN")
     words = words_of(sheet.member_forces.yielding())
-    struck, history = sheet.calculation.yielding
+    struck, _, history, _ = sheet.calculation.yielding
     shear = abs(struck.member_forces(history.pier.yield_reaction).largest_shear.value)
     assert f"the shear is {shear / 2.4e6:.2f} times its resistance" in words
     assert "Ry" not in sheet.member_forces.symbols()
@@ -223,3 +222,95 @@ def test_a_sheet_is_of_the_date_of_its_revision():
     said = warnings_beside_verdict(Sheet(given_another).calculation)
     assert "The sheet is of 2026-05-01, its revision B of 2026-02-02." in said
     assert case_from(ROUND | {"revisions": lines}).inputs.date == datetime.date.today()
+
+
+def with_step(**resistances):
+    return STEPPED | {"steps": [STEPPED["steps"][0] | resistances]}
+
+
+@pytest.mark.parametrize("impact_height", ["1.2 m", "auto"])
+def test_a_step_has_resistances_of_its_own(impact_height):
+    case = with_step(shear_resistance="1.5 MN", moment_resistance="0.9 MN*m")
+    sheet = Sheet(case_from(case | {"impact_height": impact_height}))
+    result = sheet.calculation
+    limits = {"shear": (12e6, 1.5e6), "moment": (16e6, 0.9e6)}
+    for name, (below, above) in limits.items():
+        ratios = [
+            result.demands_of(part)[name].value / limit
+            for part, limit in zip(result.case.parts, (below, above), strict=True)
+        ]
+        assert result.utilisations[name] == pytest.approx(max(ratios), rel=1e-12)
+        assert result.checks[name].part == result.case.parts[int(np.argmax(ratios))]
+    assert "for all parts" not in statement(result)
+    assert "held against all parts" not in " ".join(warnings_beside_verdict(result))
+    rows = {row[0]: row for row in sheet.first_page.utilisations().rows}
+    for name, unit in (("Shear", "kN"), ("Moment", "kN·m")):
+        check = result.checks[name.lower()]
+        row = rows[f"{name} [{unit}]"]
+        assert row[3].endswith(f", {check.part.low:g} to {check.part.high:g} m")
+        assert number(row[4]) == pytest.approx(1e-3 * check.resistance)
+        demand = max(number(row[1]), number(row[2]))
+        assert number(row[5]) == pytest.approx(demand / number(row[4]), rel=5e-3)
+    of_parts = sheet.member_forces.places().rows[-2:]
+    assert [number(row[3]) for row in of_parts] == [12_000.0, 1500.0]
+    assert [number(row[6]) for row in of_parts] == [16_000.0, 900.0]
+
+
+def test_a_step_that_resists_the_same_changes_nothing():
+    one = Sheet(case_from(STEPPED)).calculation
+    same = with_step(shear_resistance="12 MN", moment_resistance="16 MN*m")
+    two = Sheet(case_from(same)).calculation
+    assert two.utilisations == one.utilisations
+    assert two.upper_utilisations == one.upper_utilisations
+    assert "held against" in " ".join(warnings_beside_verdict(two))
+
+
+def test_what_95_percent_stay_below_is_of_the_part_that_each_truck_uses_most():
+    strong = {"shear_resistance": "90 MN", "moment_resistance": "90 MN*m"}
+    weak = with_step(shear_resistance="1.1 MN", moment_resistance="0.8 MN*m") | strong
+    result = Sheet(case_from(weak)).calculation
+    whole = Sheet(case_from(STEPPED)).calculation
+    for method in ("static", "beam", "larger"):
+        for name, largest in result.sampled_demands.items():
+            # The whole column's are the larger of its parts'.
+            assert largest[method] == pytest.approx(whole.sampled_demands[name][method], rel=1e-9)
+    upper = result.upper_utilisations
+    assert upper["moment"] > result.utilisations["moment"]
+    stronger = with_step(shear_resistance="2.2 MN", moment_resistance="1.6 MN*m") | strong
+    half = Sheet(case_from(stronger)).calculation
+    assert half.checks["moment"].part == half.case.parts[1]
+    assert half.upper_utilisations["moment"] == pytest.approx(0.5 * upper["moment"], rel=1e-9)
+
+
+def test_the_part_that_yields_is_named():
+    case = with_step(moment_resistance="0.3 MN*m") | {"shear_resistance": "40 MN"}
+    sheet = Sheet(case_from(case))
+    table, found = sheet.member_forces.yielding(), sheet.calculation.yielding
+    values = {row[0]: number(row[2]) for row in table.rows}
+    assert "yields in bending from 2.5 to 6.2 m" in table.caption
+    moment = values["Yield reaction"] * values["Largest moment under a unit force"]
+    assert moment == pytest.approx(300.0, rel=1e-3)
+    forces = found.struck.member_forces(found.history.pier.yield_reaction)
+    assert forces.moment_within(2.5, 6.2) == pytest.approx(0.3e6, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("case", "message"),
+    [
+        (
+            {
+                k: v
+                for k, v in with_step(shear_resistance="1 MN").items()
+                if k != "shear_resistance"
+            },
+            "steps[1].shear_resistance is given, and shear_resistance of the column below is",
+        ),
+        (with_step(moment_resistance="3 MN"), "steps[1].moment_resistance"),
+        (with_step(shear_resistance="-3 MN"), "steps[1].shear_resistance"),
+    ],
+)
+def test_a_bad_resistance_of_a_step_is_one_line(case, message):
+    with pytest.raises(InputError) as error:
+        case_from(case)
+    assert message in str(error.value)
+    assert "\n" not in str(error.value)

@@ -9,11 +9,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from pierimpact.checks import InputError, brief, shortened
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
-from pierimpact.files.inputs import Inputs, SectionInputs, read_inputs
+from pierimpact.files.inputs import Inputs, SectionInputs, StepInputs, read_inputs
 from pierimpact.files.limits import LEAST_PART, POSSIBLE
 from pierimpact.files.office import Logo, read_logo, read_shared_file
 from pierimpact.files.reading import read_text
@@ -55,6 +55,15 @@ SHAPES: dict[str, type[Section]] = {
 }
 
 
+class Part(NamedTuple):
+    """A part of the column between its steps."""
+
+    low: float  #: height from which it goes [m]
+    high: float  #: to which [m]
+    section: Section
+    resistances: Mapping[str, float]  #: to "shear" [N] and "moment" [N m], where they are given
+
+
 @dataclass(frozen=True, kw_only=True)
 class Case:
     """A case that has passed every check, as objects of the core."""
@@ -81,6 +90,24 @@ class Case:
     def impact_heights(self) -> tuple[float, ...]:
         """Nominal impact heights the case may come to use [m]."""
         return impact_heights(self.inputs)
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """The parts of the column between its steps, upward; one resists what that below does."""
+        resistances: dict[str, float] = {}
+        parts = []
+        stretches = self.column.stretches
+        levels: tuple[Inputs | StepInputs, ...] = (self.inputs, *self.inputs.steps)
+        for own, (section, low, high) in zip(levels, stretches, strict=True):
+            given = {"shear": own.shear_resistance, "moment": own.moment_resistance}
+            resistances |= {name: value for name, value in given.items() if value is not None}
+            parts.append(Part(low, high, section, dict(resistances)))
+        return tuple(parts)
+
+    @property
+    def whole(self) -> Part:
+        """The column from its base to its top, with what its lowest part resists."""
+        return self.parts[0]._replace(high=self.parts[-1].high)
 
 
 def impact_heights(inputs: Inputs) -> tuple[float, ...]:
@@ -387,6 +414,11 @@ def _steps(inputs: Inputs) -> list[Step]:
             steps.append(Step(height=step.height, section=_section(step)))
         except InputError as error:
             raise InputError(f"steps[{number}].{error}") from None
+        for key in ("shear_resistance", "moment_resistance"):
+            if getattr(step, key) is not None and getattr(inputs, key) is None:
+                raise InputError(
+                    f"steps[{number}].{key} is given, and {key} of the column below is missing"
+                )
     return steps
 
 

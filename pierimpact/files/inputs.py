@@ -162,9 +162,11 @@ class SectionInputs(BaseModel):
 
 
 class StepInputs(SectionInputs):
-    """The keys of a change of the cross-section."""
+    """The keys of a change of the cross-section, or of its resistances."""
 
     height: Annotated[float, _named(_length, str)]
+    shear_resistance: Quantity | None = None
+    moment_resistance: Quantity | None = None
 
 
 class RevisionInputs(BaseModel):

@@ -4,7 +4,7 @@ from typing import get_args
 
 from pydantic import BaseModel
 
-from pierimpact.files.inputs import Inputs
+from pierimpact.files.inputs import Inputs, StepInputs
 from pierimpact.files.limits import ends_in
 from pierimpact.files.plausible import USUAL, USUAL_MODULI
 from pierimpact.symbols import BY_KEY, dimension
@@ -27,8 +27,9 @@ _WORDS = {
     "column_shape": "shape of the column’s section",
     "base": "what holds the base of the column",
     "top": "what holds its top",
-    "steps": "changes of the section, from the base upward: the height of each and its section",
-    "height": "height above the base from which the section is another",
+    "steps": "changes of the section, from the base upward: the height of each and its section, "
+    "and its shear_resistance and moment_resistance if they are not those below",
+    "height": "height above the base from which the section or a resistance is another",
     "truck": "truck of the catalogue, or a truck file of your own (.toml)",
     "member_forces": "member forces that are checked: the larger of both methods, those of the "
     "column as a beam, or those of the static reaction",
@@ -66,6 +67,10 @@ _MORE = {
     "shear_resistance": "without it shear is not checked",
     "moment_resistance": "without it moment is not checked",
 }
+# What they leave unsaid of a step's.
+_MORE_OF_STEP = dict.fromkeys(
+    ("shear_resistance", "moment_resistance"), "that of the part below if left out"
+)
 
 
 def explanation(key: str, model: type[BaseModel] = Inputs) -> str:
@@ -88,7 +93,8 @@ def explanation(key: str, model: type[BaseModel] = Inputs) -> str:
     ]
     words = _WORDS[key] if key in _WORDS else BY_KEY[key].meaning
     in_brackets = "; ".join(filter(None, notes))
-    more = f"; {_MORE[key]}" if key in _MORE else ""
+    unsaid = _MORE | (_MORE_OF_STEP if model is StepInputs else {})
+    more = f"; {unsaid[key]}" if key in unsaid else ""
     return f"{words} ({in_brackets}){more}" if in_brackets else f"{words}{more}"
 
 

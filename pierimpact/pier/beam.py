@@ -81,6 +81,12 @@ class BeamPier:
         """Mass 1/Σ φ(z_n)² that resists a sudden force at z_n [kg]."""
         return float(1.0 / np.sum(self.impact_deflection**2))
 
+    def between(self, low: float, high: float) -> "BeamPier":
+        """Return the same beam, whose fields are those of its heights from one to another [m]."""
+        own = (self.z >= low) & (self.z <= high)
+        fields = {name: getattr(self, name)[:, own] for name in ("deflection", "shear", "moment")}
+        return replace(self, z=self.z[own], **fields)
+
     def up_to(self, frequency: float, most: int = MOST_ASKED) -> "BeamPier":
         """Return the same beam with its natural modes up to a frequency [Hz], from one to `most`.
 

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from pierimpact.files.case import Part
 from pierimpact.pier.column import PierColumn
 from pierimpact.pier.member_forces import MemberForceHistory, MemberForces
 from pierimpact.plots.ends import end_labels, mark_ends
@@ -47,7 +48,7 @@ _QUANTITIES = (
 
 def draw_envelopes(
     impacts: Sequence[Impact],
-    resistances: tuple[float | None, float | None],
+    parts: Sequence[Part],
     bands: Mapping[str, tuple[float, float]],
     system: str,
     column: PierColumn | None = None,
@@ -62,8 +63,8 @@ def draw_envelopes(
     impacts : sequence of tuple
         For each impact height the static member forces, those under the smallest reaction, and
         those of the column as a beam, or None where it was not calculated.
-    resistances : tuple of float or None
-        Shear resistance [N] and moment resistance [N m].
+    parts : sequence of Part
+        Parts of the column with what they resist, upward.
     bands : mapping of str to tuple of float
         Of the largest "shear" [N] and "moment" [N m] the values at 5 and 95 %, with their sign;
         empty without a spread.
@@ -81,7 +82,7 @@ def draw_envelopes(
     with page_figure(TEXT_WIDTH, 72.0, **margins, wspace=0.05) as figure:
         panels: Any = figure.subplots(1, 2, sharey=True)
         labels: list[Label] = []
-        for axes, quantity, resistance in zip(panels, _QUANTITIES, resistances, strict=True):
+        for axes, quantity in zip(panels, _QUANTITIES, strict=True):
             axes.set_ylim(foot, top + room)
             axes.axvline(0.0, color=INK, linewidth=0.6)
             for static, _, _ in impacts:
@@ -90,7 +91,7 @@ def draw_envelopes(
             found += _draw_static(axes, impacts, quantity, system)
             if quantity.name in bands:
                 found.insert(0, _draw_band(axes, bands[quantity.name], band, quantity, system))
-            labels += _draw_resistance(axes, resistance, quantity, system) + found
+            labels += _draw_resistances(axes, parts, quantity, system) + found
             axes.locator_params(axis="x", nbins=6)
             trim_ticks(axes, 0.06)
             if column is not None:
@@ -175,27 +176,38 @@ def _number(value: float, quantity: _Quantity, system: str) -> str:
     return shown(value, quantity.kind, system).removesuffix(f" {unit_of(quantity.kind, system)}")
 
 
-def _draw_resistance(
-    axes: Axes, resistance: float | None, quantity: _Quantity, system: str
+def _draw_resistances(
+    axes: Axes, parts: Sequence[Part], quantity: _Quantity, system: str
 ) -> list[Label]:
-    """Draw a resistance on both sides, or say that it is far away; return its labels."""
+    """Draw resistances on both sides, or say which are far away; return their labels."""
+    size, unit = unit_size("length", system), unit_size(quantity.kind, system)
     largest = float(np.max(np.abs(axes.dataLim.intervalx))) or 1.0  # nothing bends it
-    axes.set_xlim(-1.35 * largest, 1.35 * largest)
     heading = f"{quantity.name.capitalize()} ${quantity.symbol}$ [{unit_of(quantity.kind, system)}]"
-    axes.set_xlabel(heading)
-    if resistance is None:
-        return []
-    words = named(quantity.resistance, resistance, system)
-    place_of_it = resistance / unit_size(quantity.kind, system)
-    if place_of_it > _FAR * largest:
-        axes.set_xlabel(f"{heading}; {words}, beyond this figure")
-        return []
-    axes.set_xlim(-max(1.35 * largest, 1.2 * place_of_it), max(1.35 * largest, 1.2 * place_of_it))
-    labels = []
-    for side in (-1.0, 1.0):
-        axes.axvline(side * place_of_it, **_RESISTANCE)
-        z = np.linspace(*axes.get_ylim(), 9)
-        points = np.stack((np.full(9, side * place_of_it), z), axis=-1)
-        text = words if side > 0.0 else f"$-{SYMBOLS[quantity.resistance].latex}$"
-        labels.append(Label(axes, text, points, (side, 0.0), {"rotation": 90.0}))
+    low, high = axes.get_ylim()
+    ends = [low, *(part.high / size for part in parts[:-1]), high]
+    labels: list[Label] = []
+    far: list[str] = []
+    near: list[float] = []
+    drawn: list[str] = []
+    for part, start, end in zip(parts, ends[:-1], ends[1:], strict=True):
+        resistance = part.resistances.get(quantity.name)
+        if resistance is None:
+            continue
+        place, words = resistance / unit, named(quantity.resistance, resistance, system)
+        if place > _FAR * largest:
+            far += [words] if words not in far else []
+            continue
+        near.append(place)
+        for side in (-1.0, 1.0):
+            axes.plot([side * place] * 2, [start, end], **_RESISTANCE)
+            if words in drawn:
+                continue
+            z = np.linspace(start, end, 9)
+            points = np.stack((np.full(9, side * place), z), axis=-1)
+            text = words if side > 0.0 else f"$-{SYMBOLS[quantity.resistance].latex}$"
+            labels.append(Label(axes, text, points, (side, 0.0), {"rotation": 90.0}))
+        drawn.append(words)
+    most = max([1.35 * largest, *(1.2 * place for place in near)])
+    axes.set_xlim(-most, most)
+    axes.set_xlabel(f"{heading}; {', '.join(far)}, beyond this figure" if far else heading)
     return labels

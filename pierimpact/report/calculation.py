@@ -1,6 +1,7 @@
 """The calculation of a case: from the nominal impact height to reactions and member forces."""
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple, TypeAlias
@@ -18,7 +19,7 @@ from pierimpact.design.codes import CodeForce, aashto_lrfd, code_forces
 from pierimpact.design.reaction import DesignReaction, design_reaction
 from pierimpact.design.sensitivity import SPEED_CHANGES, Sensitivity, sensitivity
 from pierimpact.design.static_forces import StaticForcesInCollision
-from pierimpact.files.case import Case
+from pierimpact.files.case import Case, Part
 from pierimpact.pier.beam import BeamPier
 from pierimpact.pier.column import StruckColumn
 from pierimpact.pier.equivalent import EquivalentPier
@@ -58,6 +59,28 @@ class Demand(NamedTuple):
     def ratio(self) -> float | None:
         """Static over beam [-]."""
         return None if self.beam is None else self.static / self.beam
+
+
+class Check(NamedTuple):
+    """The largest "shear" or "moment" on a part of the column, and what that part resists."""
+
+    part: Part
+    demand: Demand
+    resistance: float  #: [N] or [N m]
+
+    @property
+    def utilisation(self) -> float:
+        """Demand over resistance [-]."""
+        return self.demand.value / self.resistance
+
+
+class Yielding(NamedTuple):
+    """The collision with a pier that yields in bending."""
+
+    struck: StruckColumn
+    part: Part  #: that yields
+    history: CollisionHistory
+    shear: float  #: utilisation in shear when it yields; zero without a shear resistance [-]
 
 
 class CodeEffect(NamedTuple):
@@ -109,7 +132,12 @@ class Impact:
     @property
     def demands(self) -> dict[str, Demand]:
         """Largest "shear" and "moment"."""
-        static, beam, asked = self.member_forces, self.beam_forces, self.case.inputs.member_forces
+        return self.demands_of(self.case.whole)
+
+    def demands_of(self, part: Part) -> dict[str, Demand]:
+        """Return the same on a part of the column."""
+        static, asked, ends = self.member_forces, self.case.inputs.member_forces, part[:2]
+        beam = self.beam_forces and self.beam_forces.between(*ends)
         shear, moment = (
             (None, None)
             if beam is None
@@ -119,24 +147,24 @@ class Impact:
             )
         )
         return {
-            "shear": Demand(abs(static.largest_shear.value), shear, asked),
-            "moment": Demand(abs(static.largest_moment.value), moment, asked),
+            "shear": Demand(static.shear_within(*ends), shear, asked),
+            "moment": Demand(static.moment_within(*ends), moment, asked),
         }
 
-    def sampled_demands(self, band: ReactionBand, reactions: Array) -> dict[str, dict[str, Array]]:
-        """Return the largest "shear" and "moment" of the sampled trucks of a band, by method.
+    def sampled_demands(
+        self, part: Part, band: ReactionBand, reactions: Array
+    ) -> dict[str, dict[str, Array]]:
+        """Return the same of the sampled trucks of a band, by method.
 
         By "static", from their `reactions` here, and, where there is a beam, by "beam" and the
         "larger" of both.
         """
-        per_reaction = reactions / self.reaction
-        found = {
-            name: {"static": demand.static * per_reaction} for name, demand in self.demands.items()
-        }
+        per_reaction, demands = reactions / self.reaction, self.demands_of(part)
+        found = {name: {"static": demand.static * per_reaction} for name, demand in demands.items()}
         if self.beam is not None and self.beam_forces is not None:
-            duration = float(self.beam_forces.time[-1])
-            by_beam = beam_band(band.collision.parameters, band.parameters, self.beam, duration)
-            for name, demand in self.demands.items():
+            beam, duration = self.beam.between(*part[:2]), float(self.beam_forces.time[-1])
+            by_beam = beam_band(band.collision.parameters, band.parameters, beam, duration)
+            for name, demand in demands.items():
                 own = found[name]
                 own["beam"] = (demand.beam or math.nan) * by_beam.ratios(name)
                 own["larger"] = np.fmax(own["static"], own["beam"])
@@ -271,17 +299,20 @@ class Calculation:
         """
         if not self.band.spread:
             return {}
-        first, *others = [
-            impact.sampled_demands(self.band, reactions)
-            for impact, reactions in zip(self.impacts, self._sampled_reactions, strict=True)
+        return _largest_of(self._sampled_by_part)
+
+    @cached_property
+    def _sampled_by_part(self) -> list[dict[str, dict[str, Array]]]:
+        """The same for each part of the column that has resistances of its own."""
+        return [
+            _largest_of(
+                [
+                    impact.sampled_demands(part, self.band, reactions)
+                    for impact, reactions in zip(self.impacts, self._sampled_reactions, strict=True)
+                ]
+            )
+            for part in self._resisting
         ]
-        return {
-            name: {
-                method: np.fmax.reduce([values, *(own[name][method] for own in others)])
-                for method, values in by_method.items()
-            }
-            for name, by_method in first.items()
-        }
 
     def demand_bands_by(self, method: str) -> dict[str, tuple[float, float]]:
         """Return "shear" and "moment" that 5 and 95 % of the sampled trucks stay below by a method.
@@ -310,17 +341,28 @@ class Calculation:
     @cached_property
     def demands(self) -> dict[str, Demand]:
         """Largest "shear" and "moment" of all impacts, each by the method that governs."""
+        return self.demands_of(self.case.whole)
+
+    def demands_of(self, part: Part) -> dict[str, Demand]:
+        """Return the same on a part of the column."""
+        of_each = [impact.demands_of(part) for impact in self.impacts]
 
         def largest(name: str) -> Demand:
-            of_each = [impact.demands[name] for impact in self.impacts]
-            beams = [demand.beam for demand in of_each if demand.beam is not None]
+            beams = [own[name].beam for own in of_each if own[name].beam is not None]
             return Demand(
-                max(demand.static for demand in of_each),
-                max(beams, default=None),
+                max(own[name].static for own in of_each),
+                max(filter(None, beams), default=None),
                 self.case.inputs.member_forces,
             )
 
         return {name: largest(name) for name in ("shear", "moment")}
+
+    @property
+    def _resisting(self) -> tuple[Part, ...]:
+        """The parts of the column, or the whole where all resist the same."""
+        parts = self.case.parts
+        same = all(part.resistances == parts[0].resistances for part in parts)
+        return (self.case.whole,) if same else parts
 
     def largest_of_beam(self, name: str) -> tuple[BeamExtreme, Impact] | None:
         """Return the largest "shear" or "moment" of the column as a beam, and of which impact."""
@@ -331,44 +373,33 @@ class Calculation:
         ]
         return max(found, key=lambda own: abs(own[0].value), default=None)
 
-    @property
-    def parts(self) -> list[tuple[float, float]]:
-        """From where to where each part of the column goes; none where its section is one [m]."""
-        stretches = self.case.column.stretches
-        several = len({section for section, _, _ in stretches}) > 1
-        return [(low, high) for _, low, high in stretches] if several else []
-
-    def largest_within(self, name: str, low: float, high: float) -> Demand:
-        """Return the largest "shear" or "moment" from one height to another, of all impacts."""
-        parts = [
-            (impact.member_forces, impact.beam_forces and impact.beam_forces.between(low, high))
-            for impact in self.impacts
-        ]
-        return Demand(
-            max(getattr(forces, f"{name}_within")(low, high) for forces, _ in parts),
-            max(
-                (abs(getattr(own, f"{name}_extremes").governing.value) for _, own in parts if own),
-                default=None,
-            ),
-            self.case.inputs.member_forces,
-        )
-
     @cached_property
-    def yielding(self) -> tuple[StruckColumn, CollisionHistory] | None:
-        """The column and the collision in which it yields in bending; None where it does not.
+    def yielding(self) -> Yielding | None:
+        """The collision with a pier that yields in bending; None where it does not.
 
-        By the static reaction at the height where that exceeds the moment resistance most. None
-        also where the case gives no moment resistance.
+        By the static reaction at the height, and in the part, where that exceeds the moment
+        resistance most. None also where the case gives no moment resistance.
         """
-        resistance = self.resistances.get("moment")
-        if resistance is None:
+        if "moment" not in self.resistances:
             return None
-        most = max(self.impacts, key=lambda impact: abs(impact.member_forces.largest_moment.value))
-        limit = most.struck.yield_reaction(resistance)
-        if most.reaction <= limit:
+        limits = {
+            (impact.reaction / limit, limit): (impact, part)
+            for impact in self.impacts
+            for part in self._resisting
+            for limit in (_limit(impact.struck, part),)
+        }
+        most, limit = max(limits)
+        if most <= 1.0:
             return None
-        pier = replace(most.history.pier, yield_reaction=limit)
-        return most.struck, simulate(self.case.truck, pier, self.case.inputs.speed)
+        impact, part = limits[most, limit]
+        pier = replace(impact.history.pier, yield_reaction=limit)
+        history = simulate(self.case.truck, pier, self.case.inputs.speed)
+        forces = impact.struck.member_forces(limit)
+        shears = [
+            forces.shear_within(*own[:2]) / own.resistances.get("shear", math.inf)
+            for own in self._resisting
+        ]
+        return Yielding(impact.struck, part, history, max(shears))
 
     @cached_property
     def average_forces(self) -> dict[float, AverageForce]:
@@ -402,36 +433,58 @@ class Calculation:
     def utilisations_under(self, forces: MemberForces) -> dict[str, float]:
         """Return what these member forces come to, as `utilisations` do."""
         return {
-            name: abs(getattr(forces, f"largest_{name}").value) / resistance
-            for name, resistance in self.resistances.items()
+            name: max(
+                getattr(forces, f"{name}_within")(*part[:2]) / part.resistances[name]
+                for part in self._resisting
+            )
+            for name in self.resistances
         }
 
     @property
-    def resistances(self) -> dict[str, float]:
-        """The resistances that the case gives, to "shear" [N] and "moment" [N m]."""
-        inputs = self.case.inputs
-        both = {"shear": inputs.shear_resistance, "moment": inputs.moment_resistance}
-        return {name: value for name, value in both.items() if value is not None}
+    def resistances(self) -> Mapping[str, float]:
+        """The resistances that the case gives at the base, to "shear" [N] and "moment" [N m]."""
+        return self.case.parts[0].resistances
+
+    @cached_property
+    def checks(self) -> dict[str, Check]:
+        """Where "shear" and "moment" use most of what the column resists, if it is given."""
+        found = {}
+        for name in self.resistances:
+            checks = [
+                Check(part, self.demands_of(part)[name], part.resistances[name])
+                for part in self._resisting
+            ]
+            found[name] = max(checks, key=lambda check: check.utilisation)
+        return found
 
     @property
     def utilisations(self) -> dict[str, float]:
         """Demand over resistance, "shear" and "moment", where the case gives a resistance [-]."""
-        return {
-            name: self.demands[name].value / resistance
-            for name, resistance in self.resistances.items()
-        }
+        return {name: check.utilisation for name, check in self.checks.items()}
 
     @property
     def upper_utilisations(self) -> dict[str, float]:
-        """The same at the upper end of the demand's band [-]; empty without a spread."""
+        """What 95 % of the sampled trucks stay below; empty without a spread [-]."""
         return self.upper_utilisations_by(self.case.inputs.member_forces)
 
     def upper_utilisations_by(self, method: str) -> dict[str, float]:
         """Return them by one of the methods of `sampled_demands`."""
+        if not self.band.spread:
+            return {}
         return {
-            name: high / self.resistances[name]
-            for name, (_, high) in self.demand_bands_by(method).items()
-            if name in self.resistances
+            name: float(
+                quantiles(
+                    np.fmax.reduce(
+                        [
+                            sampled[name][method] / part.resistances[name]
+                            for part, sampled in zip(
+                                self._resisting, self._sampled_by_part, strict=True
+                            )
+                        ]
+                    )
+                )[-1]
+            )
+            for name in self.resistances
         }
 
     def to_dataframe(self) -> Any:
@@ -490,6 +543,20 @@ def calculate(case: Case) -> Calculation:
         return Impact(case=case, struck=struck, history=_with_reversal(case, pier))
 
     return Calculation(case=case, impacts=tuple(map(impact, case.impact_heights)))
+
+
+def _largest_of(found: Sequence[dict[str, dict[str, Array]]]) -> dict[str, dict[str, Array]]:
+    """Return the largest of what each of several has, by name and method."""
+    return {
+        name: {method: np.fmax.reduce([own[name][method] for own in found]) for method in by_method}
+        for name, by_method in found[0].items()
+    }
+
+
+def _limit(struck: StruckColumn, part: Part) -> float:
+    """Return the reaction that makes a part yield in bending [N]."""
+    largest = struck.member_forces(1.0).moment_within(*part[:2])
+    return part.resistances["moment"] / largest if largest > 0.0 else math.inf
 
 
 def _with_reversal(case: Case, pier: EquivalentPier) -> CollisionHistory:

@@ -31,7 +31,7 @@ def statement(calculation: Calculation) -> str:
             f"The column must resist a shear of {shear} and a moment of {moment}. The case "
             "gives no resistance: nothing is checked against it."
         )
-    of_all = ", of one resistance for all parts" if calculation.parts else ""
+    of_all = ", of one resistance for all parts" if one_for_all(calculation) else ""
     missing = "".join(f" The {name} is not checked." for name in DEMANDS if name not in ratios)
     failing = {name: ratio for name, ratio in ratios.items() if ratio > 1.0}
     beyond = {
@@ -50,6 +50,18 @@ def statement(calculation: Calculation) -> str:
             f"of the band.{missing}"
         )
     return f"{holds}; {listed(at_upper)} at the upper end of the band.{missing}"
+
+
+def one_for_all(calculation: Calculation) -> list[str]:
+    """Return of "shear" and "moment" those whose one resistance is for parts that differ."""
+    parts = calculation.case.parts
+    if len({part.section for part in parts}) == 1:
+        return []
+    return [
+        name
+        for name in calculation.resistances
+        if len({part.resistances[name] for part in parts}) == 1
+    ]
 
 
 def mark(calculation: Calculation) -> str:

@@ -66,7 +66,7 @@ class Results(BaseModel):
     member_bands: dict[str, tuple[float, float]]
     #: 25 ms average of the contact force over the force of AASHTO LRFD, which is such an average.
     code_ratio: float
-    shear_resistance: float | None
+    shear_resistance: float | None  #: of the part of the column that uses it most
     moment_resistance: float | None
     utilisations: dict[str, float]  #: by "shear" and "moment", where there is a resistance
     upper_utilisations: dict[str, float]  #: the same at the band's upper end; empty without a band
@@ -119,6 +119,7 @@ class Results(BaseModel):
             "moment_method": moment.method,
             "member_bands": calculation.demand_bands,
             "code_ratio": calculation.code_ratio,
+            **{f"{name}_resistance": own.resistance for name, own in calculation.checks.items()},
             "utilisations": calculation.utilisations,
             "upper_utilisations": calculation.upper_utilisations,
             "verdict": statement(calculation),

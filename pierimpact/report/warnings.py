@@ -9,7 +9,7 @@ from pierimpact.files.inputs import NOT_GIVEN
 from pierimpact.files.plausible import unusual
 from pierimpact.pier.static_forces import TOO_LOW
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.outcome import listed
+from pierimpact.report.outcome import listed, one_for_all
 from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, compared, printed, rounded, stated, unit_of, unit_size
 from pierimpact.vehicle.truck import another_truck
@@ -77,22 +77,13 @@ def _under_code(calculation: Calculation) -> Iterator[str]:
 
 def _one_resistance(calculation: Calculation) -> Iterator[str]:
     """Yield where parts of different sections are held against the same resistance."""
-    parts = calculation.parts
-    if not (parts and calculation.resistances):
-        return
-    system = calculation.case.inputs.units
-    names: dict[tuple[float, float], list[str]] = {}
-    for name in calculation.resistances:
-        part = max(parts, key=lambda ends: calculation.largest_within(name, *ends).value)
-        names.setdefault(part, []).append(name)
-    places = []
-    for part, own in names.items():
-        low, high = (printed(end, "length", system, given=True) for end in part)
-        places.append(f"the largest {' and '.join(own)} between {low.number} and {high}")
-    yield (
-        "One resistance is held against all parts of the column, whose sections differ: "
-        f"{', '.join(places)}. A table with the member forces has those of each part."
-    )
+    names = one_for_all(calculation)
+    if names:
+        yield (
+            f"One {' and one '.join(names)} resistance is held against all parts of the column, "
+            "whose sections differ. The table by parts has the forces of each; a step takes "
+            "resistances of its own."
+        )
 
 
 def _low_in_band(calculation: Calculation) -> Iterator[str]:

@@ -157,7 +157,10 @@ class Codes(Section):
         for code, _, forces in result.code_effects:
             used = {} if forces is None else result.utilisations_under(forces)
             cells = [
-                (self.number(ratio * result.resistances[name], DEMANDS[name]), compared(ratio))
+                (
+                    self.number(abs(getattr(forces, f"largest_{name}").value), DEMANDS[name]),
+                    compared(ratio),
+                )
                 for name, ratio in used.items()
             ]
             empty = [_UNKNOWN] * (2 * len(result.resistances))
@@ -170,7 +173,8 @@ class Codes(Section):
         return Table(
             label="tab-code-utilisation",
             caption="What each of these forces alone comes to on this column, as a static force: "
-            "the largest anywhere, over the resistance.",
+            "the largest anywhere, and over the resistance"
+            + (", of all parts the largest." if len(self.case.parts) > 1 else "."),
             columns=columns("Code", *heads),
             rows=rows,
         )

@@ -111,21 +111,23 @@ class FirstPage(Section):
         larger = inputs.member_forces == "larger"
         rows: list[list[Inline]] = []
         for name, quantity in DEMANDS.items():
-            demand, resistance = result.demands[name], result.resistances.get(name)
+            check = result.checks.get(name)
+            demand = check.demand if check else result.demands[name]
+            where = f", {self.part(check.part)}" if check and len(self.case.parts) > 1 else ""
             cells: list[Inline] = [
                 f"{name.capitalize()} [{self.unit(quantity)}]",
                 self.number(demand.static, quantity),
                 self.number(demand.beam, quantity),
-                METHODS[demand.method],
+                f"{METHODS[demand.method]}{where}",
             ]
-            if resistance is None:
+            if check is None:
                 rows.append([*cells, "not given", "", *([""] if upper else []), "not checked"])
                 continue
-            ratio = result.utilisations[name]
-            cells += [self.number(resistance, quantity, given=True), compared(ratio)]
+            cells += [self.number(check.resistance, quantity, given=True)]
+            cells.append(compared(check.utilisation))
             if upper:
                 cells.append(compared(upper[name]))
-            rows.append([*cells, verdict(ratio, upper.get(name))])
+            rows.append([*cells, verdict(check.utilisation, upper.get(name))])
         return Table(
             label="tab-utilisation",
             caption="Largest member force over its resistance, by the method that "

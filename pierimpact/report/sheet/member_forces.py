@@ -1,6 +1,7 @@
 """Member forces by the beam and under the static reaction, their diagrams, and utilisations."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -163,40 +164,40 @@ class MemberForces(Section):
 
         None where there is one of either.
         """
-        result = self.calculation
-        several = len(result.impacts) > 1
-        found = [
-            (f"Struck at {self.stated(impact.struck.impact_height, 'length')}", impact.demands)
-            for impact in (result.impacts if several else ())
+        result, parts = self.calculation, self.case.parts
+        several, resisting = len(result.impacts) > 1, len(parts) > 1
+        found: list[tuple[str, dict[str, Demand], Mapping[str, float]]] = [
+            (f"Struck at {self.stated(own.struck.impact_height, 'length')}", own.demands, {})
+            for own in (result.impacts if several else ())
         ]
-        for low, high in result.parts:
-            ends = [self.shown(end, "length", given=True) for end in (low, high)]
-            demands = {name: result.largest_within(name, low, high) for name in DEMANDS}
-            found.append((f"From {ends[0].number} to {ends[1]}", demands))
+        found += [
+            (f"From {self.part(part)}", result.demands_of(part), part.resistances)
+            for part in (parts if resisting else ())
+        ]
         if not found:
             return None
-        by_beam = result.governing.beam is not None
-        rows: list[list[Inline]] = [
-            [
-                words,
-                *(
-                    self.number(value, DEMANDS[name])
-                    for name, demand in demands.items()
-                    for value in ((demand.static, demand.beam) if by_beam else (demand.static,))
-                ),
-            ]
-            for words, demands in found
-        ]
-        heads = [
-            decimal(f"{name.capitalize()}, {method} [{self.unit(quantity)}]")
-            for name, quantity in DEMANDS.items()
-            for method in (("static", "beam") if by_beam else ("static",))
-        ]
-        each = [*(["impact height"] if several else []), *(["part"] if result.parts else [])]
+        methods = ("static", "beam") if result.governing.beam is not None else ("static",)
+        heads = []
+        for name, quantity in DEMANDS.items():
+            unit = self.unit(quantity)
+            heads += [decimal(f"{name.capitalize()}, {method} [{unit}]") for method in methods]
+            if resisting and name in result.resistances:
+                heads.append(decimal("Resistance"))
+        rows: list[list[Inline]] = []
+        for words, demands, resistances in found:
+            row: list[Inline] = [words]
+            for name, quantity in DEMANDS.items():
+                demand = demands[name]
+                row += [self.number(getattr(demand, method), quantity) for method in methods]
+                if resisting and name in result.resistances:
+                    limit = resistances.get(name)
+                    row.append("" if limit is None else self.number(limit, quantity, given=True))
+            rows.append(row)
+        each = [*(["impact height"] if several else []), *(["part"] if resisting else [])]
         return Table(
             label="tab-places",
             caption=f"Largest shear and moment of each {' and of each '.join(each)}"
-            f"{', struck at either height' if several and result.parts else ''}.",
+            f"{', struck at either height' if several and resisting else ''}.",
             columns=columns("Column", *heads),
             rows=rows,
         )
@@ -266,7 +267,6 @@ class MemberForces(Section):
             name: self.shown(result.demands[name].value, quantity)
             for name, quantity in DEMANDS.items()
         }
-        given = inputs.shear_resistance is not None or inputs.moment_resistance is not None
         bands = self._signed_bands()
         return Figure(
             label="fig-members",
@@ -277,7 +277,7 @@ class MemberForces(Section):
                 if inputs.member_forces == "static"
                 else "; filled, the beam’s envelopes of both signs"
             )
-            + ("; vertical, the resistances" if given else "")
+            + ("; vertical, the resistances" if result.resistances else "")
             + ("; at the foot, the band of the largest ones, 5 to 95 %" if bands else "")
             + ". Moment positive where the far face is in tension.",
             alt=f"Envelopes of shear and moment. The largest shear is {largest['shear']}, the "
@@ -287,7 +287,7 @@ class MemberForces(Section):
                     (impact.member_forces, impact.reversed_forces, impact.beam_forces)
                     for impact in result.impacts
                 ],
-                (inputs.shear_resistance, inputs.moment_resistance),
+                self.case.parts,
                 bands,
                 self.system,
                 self.case.column,
@@ -300,20 +300,19 @@ class MemberForces(Section):
         None also where the case gives no moment resistance.
         """
         result, found = self.calculation, self.calculation.yielding
-        resistances, exceeded = result.resistances, result.demands["moment"]
-        by_beam = exceeded.method == "beam" and result.utilisations.get("moment", 0.0) > 1.0
+        check = result.checks.get("moment")
+        by_beam = check is not None and check.demand.method == "beam" and check.utilisation > 1.0
         if found is None:
             return Paragraph(_UNKNOWN) if by_beam else None
-        struck, history = found
+        struck, part, history, shear = found
         yields = history.pier.yield_reaction
-        moment = resistances["moment"] / yields
-        shear = abs(struck.member_forces(yields).largest_shear.value)
-        if shear > resistances.get("shear", math.inf):
-            times = rounded(shear / resistances["shear"], 3)
+        moment = part.resistances["moment"] / yields
+        if shear > 1.0:
             return Paragraph(
                 f"The column does not yield in bending before it fails in shear: under "
                 f"{self.shown(yields, 'force')}, at which the moment resistance is reached, the "
-                f"shear is {times} times its resistance. There is no ductility to count on."
+                f"shear is {rounded(shear, 3)} times its resistance. There is no ductility to "
+                "count on."
             )
         largest = history.ductility * yields / history.pier.stiffness
         energy = history.pier_plastic_energy
@@ -336,11 +335,12 @@ class MemberForces(Section):
         ]  # fmt: skip
         height = self.stated(struck.impact_height, "length")
         at_height = f", struck at {height}," if len(result.impacts) > 1 else ""
+        in_part = f" from {self.part(part)}" if len(self.case.parts) > 1 else ""
         return Table(
             label="tab-yielding",
-            caption=f"If the column{at_height} yields in bending: the full model, elastic up to "
-            "the reaction at which the moment resistance is first reached and perfectly plastic "
-            "from there. A redundant column carries more until it is a mechanism. How much "
+            caption=f"If the column{at_height} yields in bending{in_part}: the full model, elastic "
+            "up to the reaction at which the moment resistance is first reached and perfectly "
+            "plastic from there. A redundant column carries more until it is a mechanism. How much "
             "ductility the section has is not checked; shear is not ductile."
             + (
                 " The moment of the beam, which governs, is larger, and the demand may be."

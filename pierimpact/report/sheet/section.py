@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from pierimpact.files.case import Case
+from pierimpact.files.case import Case, Part
 from pierimpact.report.calculation import Calculation
 from pierimpact.units import Printed, printed, stated, unit_of
 
@@ -32,6 +32,11 @@ class Section:
     def symbols(self) -> dict[str, str]:
         """Return the anchors of what introduces symbols, by the names of the symbols."""
         return {}
+
+    def part(self, part: Part) -> str:
+        """Return from where to where a part of the column goes."""
+        low, high = (self.shown(z, "length", given=True) for z in (part.low, part.high))
+        return f"{low.number} to {high}"
 
     def shown(self, value: float, quantity: str, *, given: bool = False) -> Printed:
         """Return a value as the sheet prints it; arguments as in `units.printed`."""
