@@ -114,6 +114,27 @@ def test_text_is_never_markup_in_a_page_or_pdf():
     )  # side by side, lines mix
 
 
+def test_a_long_name_makes_its_row_to_sign_in_higher_and_is_broken_at_hyphens():
+    signers = [
+        ("Prepared", "Dr.-Ing. Alexandra Bergengruen-Hohenstein"),
+        ("Checked", "C. de la Fuente y Villanueva"),
+        ("Approved", "E. F."),
+    ]
+    revisions = [[revision, "2026-01-05", "First issue for comment", "AB"] for revision in "ABC"]
+    notebook = notebook_of([Signatures(signers=signers, revisions=revisions)])
+    pdf, _ = SheetPDFExporter().from_notebook_node(notebook)
+    heights = {}
+
+    def place(words, outer, inner, *_):
+        line = words.replace("\u200b", "").strip()
+        heights[line] = outer[1] * inner[4] + outer[3] * inner[5] + outer[5]
+
+    pypdf.PdfReader(io.BytesIO(pdf)).pages[0].extract_text(visitor_text=place)
+    lines = ["Name", "Dr.-Ing.", "Alexandra", "Bergengruen", "Hohenstein", "C. de la Fuente y"]
+    assert np.all(np.diff([heights[line] for line in lines]) < -7.0)
+    assert heights["Checked"] - heights["Approved"] > 22.0  # 8 mm
+
+
 def test_text_is_never_markup_in_a_word_document():
     notebook = notebook_of([block for block, _ in BLOCKS])
     document, _ = SheetWordExporter().from_notebook_node(notebook)

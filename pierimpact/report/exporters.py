@@ -433,9 +433,17 @@ _ESCAPED = {"\\": r"\\", '"': r"\"", "\n": r"\n", "\r": r"\r", "\t": r"\t"}
 def _breakable(text: str) -> str:
     """Return `text` with spaces of no width in words that would not fit a line of a column.
 
-    Only between ASCII characters, as others may join or stand on one another.
+    They stand after hyphens, and anywhere in what is still too long. Only between ASCII characters,
+    as others may join or stand on one another.
     """
-    return re.sub(r"[!-~]{20,}", lambda word: "\u200b".join(word[0]), text)
+    return re.sub(
+        r"[!-~]{20,}",
+        lambda word: "\u200b".join(
+            part if len(part) < 20 else "\u200b".join(part)
+            for part in re.findall("[^-]*-|[^-]+", word[0])
+        ),
+        text,
+    )
 
 
 def typst_bytes(base64_text: str) -> Any:
