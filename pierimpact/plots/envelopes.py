@@ -99,12 +99,13 @@ def draw_envelopes(
         first = panels[0]
         first.set_yticks([z for z in first.get_yticks() if bottom <= z <= top])
         first.set_ylabel(f"Height $z$ [{unit_of('length', system)}]")
-        for static, _, _ in impacts:
-            height = static.impact_height
-            words = named("z", height, system)
-            low, high = first.get_xlim()
-            points = [(x, height / size) for x in np.linspace(low, high, 15)]
-            labels.append(Label(first, words, points))
+        struck = sorted(static.impact_height for static, _, _ in impacts)
+        # One label for all lines: of several, each would stand beside another's line.
+        words = [named("z", struck[0], system)]
+        words += [shown(height, "length", system, given=True) for height in struck[1:]]
+        low, high = first.get_xlim()
+        points = [(x, height / size) for height in struck for x in np.linspace(low, high, 15)]
+        labels.append(Label(first, "\nand ".join(words), points))
         ends = [] if column is None else end_labels(first, column, size)
         place(figure, ends + labels)
         return to_svg(figure)
