@@ -135,6 +135,32 @@ def test_a_long_name_makes_its_row_to_sign_in_higher_and_is_broken_at_hyphens():
     assert heights["Checked"] - heights["Approved"] > 22.0  # 8 mm
 
 
+def drawing(name, height):
+    svg = f'<svg xmlns="http://www.w3.org/2000/svg" width="300" height="{height}"/>'
+    return Figure(label=f"fig-{name}", caption=f"Drawing {name}.", alt="x", svg=svg)
+
+
+@pytest.mark.parametrize("lines", range(24, 44, 4))
+def test_a_drawing_of_an_annex_is_in_it_and_no_annex_begins_with_its_heading_alone(lines):
+    table = Table(
+        label="tab-y", caption="Y.", columns=[Column(heading="Y")], rows=[["y"]] * 12, strong=[]
+    )
+    blocks = [
+        *(Paragraph(f"Line {i}") for i in range(lines)),
+        *(Annex(title="One", printed=True), drawing("one", 150), drawing("two", 250)),
+        *(Annex(title="Two", printed=True), Paragraph("Before the table."), table),
+        *(Annex(title="Three", printed=True), drawing("three", 400)),
+    ]
+    pdf, _ = SheetPDFExporter().from_notebook_node(notebook_of(blocks))
+    pages = [page.extract_text() for page in pypdf.PdfReader(io.BytesIO(pdf)).pages]
+    order = ["Annex A", "Drawing one", "Drawing two", "Annex B", "Annex C", "Drawing three"]
+    places = ["".join(pages).index(words) for words in order]
+    assert places == sorted(places)
+    for heading, next_to_it in (("A", "Drawing one"), ("B", "Table"), ("C", "Drawing three")):
+        (page,) = (page for page in pages if f"Annex {heading}" in page)
+        assert next_to_it in page
+
+
 def test_text_is_never_markup_in_a_word_document():
     notebook = notebook_of([block for block, _ in BLOCKS])
     document, _ = SheetWordExporter().from_notebook_node(notebook)
