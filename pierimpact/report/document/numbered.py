@@ -3,8 +3,11 @@
 The exporters number them in the order of the document.
 """
 
+import re
+import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Any
 
 from pierimpact.report.document.blocks import Block
@@ -105,10 +108,15 @@ class Figure(Block):
 def align_decimals(cells: Sequence[Inline]) -> list[Inline]:
     """Pad numbers on the right so that, set flush right, their decimal points stand in line.
 
-    Powers of ten and ranges stand as they are.
+    Large numbers with a power of ten are written out below or above others without one; other
+    powers, and ranges, stand as they are.
 
     Figure and punctuation spaces are as wide as a figure and a point.
     """
+    if any(isinstance(cell, str) and _PLAIN.fullmatch(cell) for cell in cells):
+        cells = [
+            _LARGE.sub(_written_out, cell) if isinstance(cell, str) else cell for cell in cells
+        ]
     decimals = [
         len(cell.partition(".")[2]) if isinstance(cell, str) and "–" not in cell else 0
         for cell in cells
@@ -122,3 +130,14 @@ def align_decimals(cells: Sequence[Inline]) -> list[Inline]:
         else:
             padded.append(cell)
     return padded
+
+
+# A number other than zero without a power of ten, and one with a power that is written out.
+_PLAIN = re.compile("−?(?=.*[1-9])[0-9.\u202f]+")
+_LARGE = re.compile("([0-9.]+)×10([⁴-⁹])")
+
+
+def _written_out(number: re.Match[str]) -> str:
+    """Return a number with a power of ten as its figures, such as "11 389 000"."""
+    size = Decimal(number[1]).scaleb(unicodedata.digit(number[2]))
+    return f"{size:,f}".replace(",", "\u202f")
