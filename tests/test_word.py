@@ -12,8 +12,8 @@ from sheet_page import US_CASE, executed
 from test_report import Text, squeezed
 from word_file import WordFile, name, text_of
 
-from pierimpact.report.document.blocks import BLOCK_MIME
-from pierimpact.report.exporters import SheetHTMLExporter, parts_of
+from pierimpact.report.document.blocks import BLOCK_MIME, Verdict
+from pierimpact.report.exporters import SheetHTMLExporter, notebook_of, parts_of
 from pierimpact.report.word import SheetWordExporter, raised_brackets
 from pierimpact.report.write import convert
 
@@ -57,6 +57,26 @@ def test_equations_are_native_and_numbered_with_their_names(made):
             assert equation["name"] in made.word.text
     positions = {WordFile.get(e, "m:val") for e in made.word.all("body", "m:jc")}
     assert positions == {"left"}
+
+
+@pytest.mark.parametrize(("mark", "colour"), [("STOP", "B3261E"), ("CAUTION", "A05A00")])
+def test_a_verdict_with_a_mark_has_a_frame_and_the_mark_in_colour(mark, colour):
+    svg = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>'
+    found = {}
+    for own in (mark, ""):
+        verdict = Verdict(statement="It does not.", mark=own, svg=svg, alt="x", results=[])
+        content, _ = SheetWordExporter().from_notebook_node(notebook_of([verdict]))
+        word = WordFile(content)
+        paragraph = next(p for p in word.all("body", "w:p") if "It does not." in text_of(p))
+        styles = {WordFile.get(e, "w:styleId"): e for e in word.all("styles", "w:style")}
+        used = [e for kind in ("w:pStyle", "w:rStyle") for e in paragraph.iter(name(kind))]
+        found[own] = [styles[WordFile.get(each, "w:val")] for each in used]
+    framed, marked = found[mark]
+    assert len(list(framed.find(f"{name('w:pPr')}/{name('w:pBdr')}"))) == 4
+    assert WordFile.get(next(marked.iter(name("w:color"))), "w:val") == colour
+    assert marked.find(f"{name('w:rPr')}/{name('w:b')}") is not None
+    (other,) = found[""]
+    assert len(list(other.find(f"{name('w:pPr')}/{name('w:pBdr')}"))) == 1
 
 
 def test_no_row_is_parted_by_the_end_of_a_page(made):
