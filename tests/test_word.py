@@ -13,8 +13,9 @@ from test_report import Text, squeezed
 from word_file import WordFile, name, text_of
 
 from pierimpact.report.document.blocks import BLOCK_MIME, Verdict
+from pierimpact.report.document.line_breaks import formula_width
 from pierimpact.report.exporters import SheetHTMLExporter, notebook_of, parts_of
-from pierimpact.report.word import SheetWordExporter, raised_brackets
+from pierimpact.report.word import SheetWordExporter, equation_lines, raised_brackets
 from pierimpact.report.write import convert
 
 
@@ -44,7 +45,8 @@ def made():
 def test_equations_are_native_and_numbered_with_their_names(made):
     equations = made.of("Equation")
     assert len(equations) > 20
-    assert len(made.word.all("body", "m:oMathPara")) == sum(len(e["lines"]) for e in equations)
+    lines = [equation_lines(e["symbol"], e["lines"]) for e in equations]
+    assert len(made.word.all("body", "m:oMathPara")) == sum(map(len, lines))
     in_prose = len(re.findall("<math", made.page)) - len(made.of("Tex")) - len(equations)
     inline = len(made.word.all("body", "m:oMath")) - len(made.word.all("body", "m:oMathPara"))
     assert inline == len(made.of("Tex")) + in_prose
@@ -57,6 +59,17 @@ def test_equations_are_native_and_numbered_with_their_names(made):
             assert equation["name"] in made.word.text
     positions = {WordFile.get(e, "m:val") for e in made.word.all("body", "m:jc")}
     assert positions == {"left"}
+
+
+def test_equations_are_on_the_page_and_have_no_bracket_without_its_other(made):
+    """As LibreOffice has them at 12 pt, on 154 mm of A4; it refuses brackets that are alone."""
+    for equation in made.of("Equation"):
+        lines = equation_lines(equation["symbol"], equation["lines"])
+        assert max(map(formula_width, lines)) < 57.0
+        for line in lines:
+            plain = re.sub(r"\\text\{[^{}]*\}", "", line)
+            for opening, closing in ("()", "[]"):
+                assert plain.count(opening) == plain.count(closing)
 
 
 @pytest.mark.parametrize(("mark", "colour"), [("STOP", "B3261E"), ("CAUTION", "A05A00")])

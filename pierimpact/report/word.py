@@ -20,6 +20,7 @@ from typing import Any
 import typst
 from nbformat import NotebookNode
 
+from pierimpact.report.document.line_breaks import broken, formula_width, unpaired_as_text
 from pierimpact.report.document.numbered import CONTINUED
 from pierimpact.report.document.table_size import column_widths
 from pierimpact.report.exporters import (
@@ -53,7 +54,10 @@ _PAPER = {"a4": (11906, 16838), "us-letter": (12240, 15840)}  # twentieths of a 
 _SIDES = 1247 + 1134  # margins, as in the template of the page
 _INCH = 2.54  # exactly [cm]
 _DOTS = 200  # of a drawing, an inch; this project's choice
-_NO_OPERAND = "\\text{\u2003}"  # before an equals sign: LibreOffice wants something there
+_NO_OPERAND = "\\text{\u2003}"  # before a sign: LibreOffice wants something there
+# Figures of a formula on a line of the page, and beside the name of a step: by eye, as LibreOffice
+# sets them, at 12 pt whatever the style says; this project's choice.
+_ROOM, _ROOM_BESIDE = 54, 38
 
 
 class SheetWordExporter(SheetHTMLExporter):
@@ -70,18 +74,14 @@ class SheetWordExporter(SheetHTMLExporter):
         return environment
 
     def _blocks(self, nb: NotebookNode) -> Iterator[dict[str, Any]]:
-        # Each line of a step is an equation of its own: Word then breaks one that is too long, and
-        # a reader of Word files that knows no alignment marks shows none.
+        # Each line of a step is an equation of its own: a reader of Word files that knows no
+        # alignment marks then shows none.
         for block in super()._blocks(nb):
             for part in parts_of(block):
                 if part["type"] == "Equation":
-                    first, *others = part["lines"]
-                    lines = [f"{part['symbol']} = {first}"]
-                    lines += [
-                        line if line.startswith(CONTINUED) else f"{_NO_OPERAND} = {line}"
-                        for line in others
-                    ]
-                    part["tex"] = "$$\n\n$$".join(map(raised_brackets, lines))
+                    lines = equation_lines(part["symbol"], part["lines"])
+                    part["long"] = max(map(formula_width, lines)) > _ROOM_BESIDE
+                    part["tex"] = "$$\n\n$$".join(lines)
                 elif part["type"] == "Tex":
                     part["source"] = raised_brackets(part["source"])
             yield block
@@ -184,6 +184,19 @@ def _pictures(drawn: Sequence[dict[str, Any]]) -> list[bytes]:
         root=font_folder(),
     )
     return pictures if isinstance(pictures, list) else [pictures]
+
+
+def equation_lines(symbol: str, right_hand_sides: Sequence[str]) -> list[str]:
+    """Return an equation in lines for Word, in LaTeX, from its lines for a page that is wider."""
+    first, *others = right_hand_sides
+    lines = broken(f"{symbol} = {first}", _ROOM)
+    for side in others:
+        line = side.removeprefix(CONTINUED).strip()
+        lines += broken(line if side.startswith(CONTINUED) else f"= {line}", _ROOM)
+    return [
+        raised_brackets(unpaired_as_text(f"{_NO_OPERAND} {line}" if number else line))
+        for number, line in enumerate(lines)
+    ]
 
 
 def raised_brackets(formula: str) -> str:

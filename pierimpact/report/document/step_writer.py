@@ -74,7 +74,7 @@ class StepWriter:
             whole = " = ".join(lines)
             if not any(line.startswith(CONTINUED) for line in lines) and tex_length(whole) < _LINE:
                 lines = [whole]
-        because = " and ".join(f"${c.latex(_IN_SYMBOLS)}$" for c in step.conditions)
+        because = " and ".join(_in_words(c.latex(_IN_SYMBOLS)) for c in step.conditions)
         remarks = [step.remark, because and f"as {because}"]
         return Equation(
             label=f"eq-{step.name}",
@@ -88,6 +88,12 @@ class StepWriter:
 def in_symbols(step: Step) -> str:
     """Return the equation of a step in symbols."""
     return step.latex(_IN_SYMBOLS)
+
+
+def _in_words(condition: str) -> str:
+    """Return a condition as a formula of a line of text or, where it is all words, as those."""
+    words = re.sub(r"\\text\{([^{}]*)\}", r"\1", condition)
+    return f"${condition}$" if re.search(r"[\\=<>]", words) else words
 
 
 def _broken(formula: str) -> list[str]:
