@@ -90,6 +90,15 @@ def test_masses_add_up_to_the_equivalent_mass(sheet):
     assert masses[-2] == pytest.approx(60e3 * top**2, rel=1e-3)
 
 
+def test_of_an_energy_below_round_off_nothing_is_printed():
+    case = {key: CASE[key] for key in CASE if key not in ("top_mass", "embedment", "steps")}
+    rows = Sheet(case_from(case | {"damping_ratio": 0.2})).model.energy().data()["rows"]
+    for column in (1, 2):
+        *values, whole = (number(row[column]) for row in rows)
+        assert all(value == 0.0 or abs(value) > 1e-9 * whole for value in values)
+    assert rows[1][2].strip() == "0"  # in the deflection, at the end
+
+
 def test_every_part_has_its_own_section(sheet):
     table, column = sheet.pier.parts(), sheet.calculation.case.column
     sections = [column.section, column.section, column.steps[0].section]

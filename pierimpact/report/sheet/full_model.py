@@ -160,7 +160,8 @@ class FullModel(Section):
         strain = 0.5 * peak.reaction**2 / result.pier.stiffness
         shares.insert(1, ("Deflection of the pier", strain, float(energy.pier_elastic[-1])))
         shares.append(("Sum", sum(share[1] for share in shares), sum(share[2] for share in shares)))
-        whole = self.shown(history.collision.energy, "energy")
+        brought = history.collision.energy
+        whole = self.shown(brought, "energy")
         return Table(
             label="tab-energy",
             caption=(
@@ -177,7 +178,10 @@ class FullModel(Section):
                 decimal(f"End [{whole.unit}]"),
             ),
             rows=[
-                [name, *(self.number(value, "energy") for value in values)]
+                [
+                    name,
+                    *(self.number(_above_round_off(value, brought), "energy") for value in values),
+                ]
                 for name, *values in shares
             ],
             strong=[len(shares) - 1],
@@ -195,8 +199,6 @@ class FullModel(Section):
         rows.append(("Sum", sum(value for _, value in rows)))
         brought = truck.mass * self.case.inputs.speed
         whole = self.shown(brought, "impulse")
-        # Of a body at rest nothing but round-off is left; the share is numerical.
-        rows = [(name, value if abs(value) > 1e-9 * brought else 0.0) for name, value in rows]
         return Table(
             label="tab-momentum",
             caption=(
@@ -206,7 +208,10 @@ class FullModel(Section):
                 ".",
             ),
             columns=columns("Of", decimal(f"Value [{whole.unit}]")),
-            rows=[[name, self.number(value, "impulse")] for name, value in rows],
+            rows=[
+                [name, self.number(_above_round_off(value, brought), "impulse")]
+                for name, value in rows
+            ],
             strong=[len(rows) - 1],
         )
 
@@ -237,3 +242,8 @@ class FullModel(Section):
             ),
             rows=rows,
         )
+
+
+def _above_round_off(value: float, brought: float) -> float:
+    """Return a value, or zero where nothing but round-off is left of what the truck brings."""
+    return value if abs(value) > 1e-9 * brought else 0.0  # numerical
