@@ -205,6 +205,21 @@ def test_the_table_of_inputs_says_that_an_end_is_on_springs():
     assert top == ["pinned", "", "given", "case file"]
 
 
+def test_the_table_of_inputs_says_how_what_it_prints_in_other_units_was_given():
+    tube = {
+        "column_shape": "hollow circular",
+        "column_diameter": "508mm",
+        "column_wall_thickness": "1.6e1 mm",
+        "column_height": "7.8 m",
+        "speed": "80 km/h",
+    }
+    section = {key: CASE[key] for key in CASE if key not in ("steps", "embedment")}
+    rows = {row[0]: row[-1] for row in Sheet(case_from(section | tube)).inputs.case_table().rows}
+    assert rows["Column diameter"] == "case file; given as 508mm"
+    assert rows["Wall thickness"] == "case file; given as 1.6e1 mm"
+    assert rows["Column height"] == rows["Speed at first touch"] == "case file"
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

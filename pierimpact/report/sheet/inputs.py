@@ -10,6 +10,7 @@ from pierimpact.report.document.markup import Inline, Tex
 from pierimpact.report.document.numbered import Figure, Table, columns, decimal, wide
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import BY_KEY, NAMES, Symbol
+from pierimpact.units import DIGITS
 
 
 class Inputs(Section):
@@ -53,7 +54,8 @@ class Inputs(Section):
         if isinstance(value, str) or not isinstance(typed, str):
             return ""
         unit = self.shown(value, symbol.quantity, given=True).unit
-        return "" if _plain(typed).endswith(_plain(unit)) else f"; given as {typed}"
+        own = re.sub(rf"^\s*[-+]?{DIGITS}", "", typed)
+        return "" if _plain(own) == _plain(unit) else f"; given as {typed}"
 
     def _keys(self) -> list[str]:
         """Return the keys of the case that have a value."""
