@@ -446,6 +446,15 @@ def stated(value: float, quantity: str, system: str, digits: int = 3) -> str:
     return f"{Printed(number, unit_of(quantity, system))} ({original})"
 
 
+def placed(height: float, system: str) -> Printed:
+    """Return a place along a column [m]: as it was given in `system`, or to two decimals."""
+    number, unit = printed(height, "length", system, given=True)
+    own = height / unit_size("length", system)
+    if not _has_only(own, 4):
+        number = f"{own:z.2f}".rstrip("0").rstrip(".").replace("-", "−")
+    return Printed(number, unit)
+
+
 def rounded(value: float, digits: int) -> str:
     """Return a number to `digits` significant figures, as "0.07059", "27 150" or "4.2×10⁻⁵".
 

@@ -29,8 +29,9 @@ from pierimpact.plots import (
     section,
 )
 from pierimpact.plots.style import ORANGE, SKY, complete_fonts
+from pierimpact.plots.words import shown
 from pierimpact.teaching.scenario import Scenario
-from pierimpact.units import printed, unit_size
+from pierimpact.units import converted, printed, rounded, unit_size
 
 USUAL = Scenario()
 SECTIONS = [
@@ -81,10 +82,19 @@ def test_a_section_is_drawn_as_large_as_it_is(drawn, system):
     whole = drawn.values.get("As", drawn.area)
     assert areas[0] - sum(areas[1:]) == pytest.approx(whole, rel=3e-3)
     named = {name for name in ("D", "b", "h", "t", "Df") if name in drawn.values}
-    shown = {
-        str(printed(drawn.values[name], "section length", system, given=True)) for name in named
+    given = {
+        str(printed(drawn.values[name], "section length", system, given=True))
+        if converted(drawn.values[name], "section length", system) is None
+        else f"{rounded(drawn.values[name] / unit_size('section length', system), 3)} in"
+        for name in named
     }
-    assert {own.words.partition(" = ")[2] for own in labels if " = " in own.words} == shown
+    assert {own.words.partition(" = ")[2] for own in labels if " = " in own.words} == given
+
+
+def test_what_was_given_in_other_units_has_three_figures_in_a_drawing():
+    assert shown(1.35, "length", "US", given=True) == "4.43 ft"
+    assert shown(1.35, "length", "SI", given=True) == "1.35 m"
+    assert shown(1.35, "length", "US") == "4.4291 ft"
 
 
 @pytest.mark.parametrize("system", ["SI", "US"])

@@ -17,6 +17,7 @@ from pierimpact.units import (
     converted,
     parse,
     pattern,
+    placed,
     printed,
     rounded,
     stated,
@@ -328,6 +329,23 @@ def test_rounded(value, digits, text):
 )
 def test_a_given_value_in_a_sentence(value, quantity, system, words):
     assert stated(value, quantity, system) == words
+
+
+@pytest.mark.parametrize(
+    ("height", "system", "words"),
+    [
+        (1.35, "SI", "1.35 m"),
+        (1.35, "US", "4.43 ft"),
+        (8 * 12 * INCH, "US", "8 ft"),
+        (0.728871, "SI", "0.73 m"),
+        (-0.728871, "SI", "−0.73 m"),
+        (12.3004, "SI", "12.3 m"),
+        (0.0012345, "SI", "0 m"),
+        (-0.0012345, "SI", "0 m"),
+    ],
+)
+def test_a_place_along_a_column(height, system, words):
+    assert str(placed(height, system)) == words
 
 
 @given(st.integers(1, 9999), st.integers(-2, 3), st.sampled_from(SYSTEMS))

@@ -3,15 +3,21 @@
 import re
 
 from pierimpact.symbols import SYMBOLS
-from pierimpact.units import printed
+from pierimpact.units import Printed, converted, printed, rounded, unit_size
 
 _POWER = re.compile("(10)?([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
 _PLAIN = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
 def shown(value: float, quantity: str, system: str, *, given: bool = False) -> str:
-    """Return a value [SI] with its unit; arguments as in `units.printed`."""
-    text = str(printed(value, quantity, system, given=given)).replace("\u202f", " ")
+    """Return a value [SI] with its unit; arguments as in `units.printed`.
+
+    One that was given in the other system of units has three figures, as in sentences.
+    """
+    number, unit = printed(value, quantity, system, given=given)
+    if given and converted(value, quantity, system) is not None:
+        number = rounded(value / unit_size(quantity, system), 3)
+    text = str(Printed(number, unit)).replace("\u202f", " ")
     return _POWER.sub(lambda power: f"${power[1] or ''}^{{{power[2].translate(_PLAIN)}}}$", text)
 
 

@@ -165,7 +165,7 @@ class EquivalentPierSteps(PierSection):
 
     def _stretch(self, part: Part) -> str:
         """Return from where to where a part goes."""
-        bottom, top = (self.shown(z, "length", given=True) for z in (part.bottom, part.top))
+        bottom, top = map(self.placed, (part.bottom, part.top))
         return f"{bottom.number} to {top}"
 
     def under_unit_force(self) -> Block:

@@ -246,7 +246,7 @@ class MemberForces(Section):
             several = len(result.impacts) > 1
             of_both = f", struck at {struck}," if several else ""
             static = "largest static one" if several else "static one"
-            height = self.shown(abs(extreme.z), "length", given=True)
+            height = self.placed(abs(extreme.z))
             place = f"{height} {'above' if extreme.z >= 0.0 else 'below'} the ground"
             place = "at the base" if extreme.z == 0.0 - result.case.column.embedment else place
             time = self.shown(extreme.time, "time")

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from pierimpact.files.case import Case, Part
 from pierimpact.report.calculation import Calculation
-from pierimpact.units import Printed, printed, stated, unit_of
+from pierimpact.units import Printed, placed, printed, stated, unit_of
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Section:
 
     def part(self, part: Part) -> str:
         """Return from where to where a part of the column goes."""
-        low, high = (self.shown(z, "length", given=True) for z in (part.low, part.high))
+        low, high = map(self.placed, (part.low, part.high))
         return f"{low.number} to {high}"
 
     def shown(self, value: float, quantity: str, *, given: bool = False) -> Printed:
@@ -45,6 +45,10 @@ class Section:
     def stated(self, value: float, quantity: str, digits: int = 3) -> str:
         """Return a given value in the units that it was given in as well; as `units.stated`."""
         return stated(value, quantity, self.system, digits)
+
+    def placed(self, height: float) -> Printed:
+        """Return a place along the column as the sheet prints it; as `units.placed`."""
+        return placed(height, self.system)
 
     def number(self, value: float | None, quantity: str, *, given: bool = False) -> str:
         """Return a value without its unit, "none" where there is none."""

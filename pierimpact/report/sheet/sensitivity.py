@@ -101,7 +101,7 @@ class Sensitivities(Section):
             for status in [own.spread_status]
             if own.name in band.spread
         )
-        height = self.shown(self.calculation.struck.impact_height, "length", given=True)
+        height = self.stated(self.calculation.struck.impact_height, "length")
         at_one = (
             f" at {height}, the height that governs" if len(self.calculation.impacts) > 1 else ""
         )
