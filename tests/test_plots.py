@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
+from figure_collisions import collisions
 from matplotlib import get_data_path
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.font_manager import fontManager
@@ -19,6 +21,7 @@ from pierimpact import (
     PierColumn,
     RectangularSection,
     RegularPolygonSection,
+    Uniform,
     load_truck,
     reaction_band,
 )
@@ -69,6 +72,10 @@ def test_sensitivities_fill_their_axes(monkeypatch, system):
     for axes in figure.axes:
         lines = [line.get_xdata() for line in axes.lines if len(line.get_xdata()) > 2]
         assert axes.get_xlim() == pytest.approx((lines[0][0], lines[0][-1]))
+    (legend,) = (axes.get_legend() for axes in figure.axes if axes.get_legend())
+    FigureCanvasAgg(figure).draw()
+    below = legend.get_window_extent().y0
+    assert all(axes.bbox.y1 <= below for axes in figure.axes)
 
 
 @pytest.mark.parametrize("system", ["SI", "US"])
@@ -121,6 +128,16 @@ def test_a_band_and_what_moves_it(monkeypatch, system):
     low, high = tornado.get_xlim()
     assert low == 0.0
     assert high > max(found.quantiles((0.95,)) / size)
+
+
+def test_wide_spreads_stand_beside_the_band(monkeypatch):
+    monkeypatch.setattr(band, "to_svg", lambda figure: figure)
+    truck = load_truck("single-unit-8t")
+    spread = {"engine_mass": Uniform(0.5, 2.0), "body_mass": Uniform(0.9278, 1.124)}
+    pier = EquivalentPier(mass=8e3, stiffness=284e6, damping_ratio=0.05)
+    figure = band.draw_band(reaction_band(truck, pier, 22.0, spread=spread, size=64), "SI")
+    assert {"−50 % to +100 %", "−7.22 % to +12.4 %"} <= set(words(figure.axes[1]))
+    assert collisions(figure) == []
 
 
 def test_a_band_without_width_or_cargo(monkeypatch):

@@ -5,17 +5,20 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from pierimpact.design.band import REACTIONS, ReactionBand
 from pierimpact.plots.style import BLUE, GREY, ORANGE, PALE, SKY, key, name_rows, note, sheet_figure
-from pierimpact.plots.svg import to_svg
+from pierimpact.plots.svg import size_of, to_svg
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import unit_of, unit_size
 
 _ROW = 0.2  # height of a row [in]
 _TOP, _GAP, _BOTTOM = 0.25, 0.5, 0.45  # above the rows, between the panels and below them [in]
-_COLUMNS = (1.34, 1.53)  # right ends of the columns beside the panel, over its width
-_BESIDE: Any = {"xycoords": ("axes fraction", "data")}
+# Over the width of the figure: where the panels end at most, and the columns beside them.
+_PANELS, _COLUMNS = 0.79, (0.92, 0.994)
+_APART = 9.0  # between a panel and the column of spreads [pt]
+_BESIDE: Any = {"xycoords": ("figure fraction", "data")}
 
 
 def draw_band(band: ReactionBand, system: str) -> str:
@@ -30,9 +33,10 @@ def draw_band(band: ReactionBand, system: str) -> str:
     """
     rows = len(REACTIONS), max(len(band.spread), 1)
     height = _TOP + _GAP + _BOTTOM + _ROW * sum(rows)
-    margins = {"left": 0.405, "right": 0.79, "top": 1.0 - _TOP / height, "bottom": _BOTTOM / height}
+    margins = {"left": 0.405, "top": 1.0 - _TOP / height, "bottom": _BOTTOM / height}
     gap = _GAP / (0.5 * _ROW * sum(rows))  # over the mean height of a panel
     with sheet_figure(height, **margins, hspace=gap) as figure:
+        figure.subplots_adjust(right=_end_of_panels(figure, band))
         strips, tornado = figure.subplots(2, 1, sharex=True, height_ratios=rows)
         size = unit_size("force", system)
         for axes in (strips, tornado):
@@ -43,6 +47,16 @@ def draw_band(band: ReactionBand, system: str) -> str:
         tornado.set_xlabel(f"Reaction [{unit_of('force', system)}]")
         tornado.set_xlim(left=0.0)
         return to_svg(figure)
+
+
+def _end_of_panels(figure: Figure, band: ReactionBand) -> float:
+    """Return where the panels end, so that the widest spread finds room beside them."""
+    widest = 0.0
+    for spread in band.spread.values():
+        text = figure.text(0.0, 0.0, spread.words)
+        widest = max(widest, size_of(text)[0])
+        text.remove()
+    return min(_PANELS, _COLUMNS[0] - (widest + _APART) / (72.0 * figure.get_figwidth()))
 
 
 def _draw_strips(axes: Axes, band: ReactionBand, size: float) -> None:
@@ -57,7 +71,8 @@ def _draw_strips(axes: Axes, band: ReactionBand, size: float) -> None:
         axes.plot([middle, middle], [row - 0.3, row + 0.3], color=colour, linewidth=2.0)
     if 0.0 < band.cargo_contact < 1.0:
         words = f"in {100.0 * band.cargo_contact:.0f} % of collisions"
-        note(axes, words, (1.03, REACTIONS.index("cargo")), (0.0, 0.0), va="center", **_BESIDE)
+        place: Any = {"xycoords": ("axes fraction", "data"), "va": "center"}
+        note(axes, words, (1.03, REACTIONS.index("cargo")), (0.0, 0.0), **place)
     axes.set_title("From 5 to 95 %, with median; black: parameters at their values")
 
 

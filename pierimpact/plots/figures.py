@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from pierimpact.checks import InputError
 from pierimpact.design.sensitivity import Sensitivity
-from pierimpact.plots.style import BLUE, VERMILION, logarithmic, sheet_figure
+from pierimpact.plots.style import BLUE, VERMILION, key, logarithmic, sheet_figure
 from pierimpact.plots.svg import KEPT, to_svg
 from pierimpact.units import unit_of, unit_size
 
@@ -108,8 +108,8 @@ def draw_sensitivity(
         ("impact_height", "length", "Impact height"),
         ("frequency", "frequency", "Pier frequency"),
     )
-    margins = {"left": 0.105, "right": 0.985, "bottom": 0.115, "top": 0.985}
-    with sheet_figure(3.9, **margins, hspace=0.38, wspace=0.1) as figure:
+    margins = {"left": 0.105, "right": 0.985, "bottom": 0.112, "top": 0.935}
+    with sheet_figure(4.0, **margins, hspace=0.38, wspace=0.1) as figure:
         grid = figure.subplots(2, 2, sharey=True)
         for axes, (name, quantity, words) in zip(grid.flat, panels, strict=True):
             variation = getattr(variations, name)
@@ -126,14 +126,14 @@ def draw_sensitivity(
         grid[0, 0].set_ylim(bottom=0.0)
         for axes in grid[:, 0]:
             axes.set_ylabel(f"Reaction [{unit_of('force', system)}]")
-        grid[0, 0].legend(reverse=True, loc="upper left")
+        key(grid[0, 1], {MODEL: EXACT, "spectrum method": CLOSED})
         return to_svg(figure)
 
 
 def _plot_both(axes: Any, x: Any, model: Any, design: Any, system: str) -> None:
     size = unit_size("force", system)
-    axes.plot(x, design / size, label="spectrum method", **CLOSED)
-    axes.plot(x, model / size, label=MODEL, **EXACT)
+    axes.plot(x, design / size, **CLOSED)
+    axes.plot(x, model / size, **EXACT)
 
 
 def _mark_both(axes: Any, x: float, model: float, design: float, system: str) -> None:
