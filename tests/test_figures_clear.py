@@ -9,6 +9,7 @@ from generated_columns import arranged_columns, resisting, round_column
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from pierimpact import (
     CircularSection,
@@ -168,3 +169,23 @@ def test_two_impact_heights_have_one_label():
     words = [text.get_text() for text in drawn.axes[0].texts]
     assert [each for each in words if " m" in each] == ["$z_\\mathrm{n}$ = 1.05 m\nand 1.35 m"]
     assert collisions(drawn) == []
+
+
+def test_the_mass_of_a_truck_that_is_cut_off_is_on_it():
+    column = round_column(5.0, 1.2)
+    truck = TRUCKS[0].loaded_to(30e3)
+    drawn = figure_of(situation.draw_situation, column, 1.5, truck, 11.57e6, "SI")
+    (mass,) = (text for text in drawn.findobj(Text) if text.get_text() == "30 000 kg")
+    drawn.set_dpi(25.4)
+    assert mass.get_window_extent().x0 > 2.0  # [mm], where it is cut off
+
+
+def test_a_spring_at_the_top_is_beside_the_mass_there():
+    column = round_column(5.2, 0.6, top="free", top_mass=42e3, top_stiffness=8e6)
+    axes = figure_of(situation.draw_situation, column, 1.05, TRUCKS[0], 1.3e6, "SI").axes[0]
+    (cap,) = (own for own in axes.patches if own.get_linestyle() == "--")
+    spring = max(
+        (line for line in axes.lines if len(line.get_xdata()) == 15),
+        key=lambda line: max(line.get_ydata()),
+    )
+    assert max(spring.get_xdata()) == pytest.approx(cap.get_x())

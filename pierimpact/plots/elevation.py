@@ -13,6 +13,7 @@ from pierimpact.plots.labels import Label
 from pierimpact.plots.style import INK
 from pierimpact.plots.words import named, shown
 
+_BEYOND = 2.0  # of a mass at the top on either side of the column, as drawn, over `unit`
 _CONCRETE, _BURIED, _SOIL = "#dcd8d0", "#efece6", "#b4bac0"
 
 
@@ -63,7 +64,8 @@ def draw_column(axes: Axes, column: PierColumn, unit: float, system: str) -> lis
     cap, words = _draw_cap(axes, column.top_mass, top, last.extent, unit, system)
     labels += words
     labels += _draw_support(axes, base, ("kb", "krb"), bottom, -1.0, first.extent, unit, system)
-    labels += _draw_support(axes, above, ("kt", "krt"), top + cap, 1.0, last.extent, unit, system)
+    width = last.extent + (2.0 * _BEYOND * unit if cap else 0.0)
+    labels += _draw_support(axes, above, ("kt", "krt"), top + cap, 1.0, width, unit, system)
     return labels
 
 
@@ -73,7 +75,7 @@ def _draw_cap(
     """Draw a mass at the top; return its height as drawn, not to scale, and its label."""
     if not mass:
         return 0.0, []
-    height, half = 1.5 * unit, 0.5 * width + 2.0 * unit
+    height, half = 1.5 * unit, 0.5 * width + _BEYOND * unit
     style: Any = {"facecolor": "white", "edgecolor": INK, "linewidth": 0.7, "linestyle": "--"}
     axes.add_artist(Rectangle((-half, top), 2.0 * half, height, **style))
     point = (half, top + 0.5 * height)

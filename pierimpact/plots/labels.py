@@ -20,7 +20,8 @@ from pierimpact.plots.svg import size_of
 
 _FINE = 2  # picture elements a point
 _STEP = (3, 1)  # from one place to the next, across and upward [pt]
-_PAD, _NEAR = 1.5, 7.0  # left free around a label; distance beyond which it has a line [pt]
+_PAD = np.array([[3.0], [1.5]])  # left free beside a label, and above and below it [pt]
+_NEAR = 7.0  # distance beyond which it has a line [pt]
 _PALE = 200.0  # of 255: areas as bright as this may lie under a label
 _SIDE = 0.15  # what a place on the wrong side costs, over what distance costs
 _LINE, _LABEL = 2, 30  # what a line to a label costs where it crosses what is drawn, or a label
@@ -73,7 +74,7 @@ def _write(label: Label, taken: NDArray[np.int_]) -> None:
     text = axes.text(points[0, 0], points[0, 1], label.words, **label.options)
     size = np.reshape(size_of(text), (2, 1))
     text.remove()
-    corners = _PAD + _places(taken > 0, np.ceil(size[:, 0] + 2.0 * _PAD).astype(int), axes)
+    corners = _PAD + _places(taken > 0, np.ceil(size + 2.0 * _PAD)[:, 0].astype(int), axes)
     limits = np.array([taken.shape[::-1]]) - 1.0
     ends = np.clip(axes.transData.transform(points), 0.0, limits).T[..., None]
     wanted = ends + 0.5 * size[:, None] * np.reshape(label.toward, (2, 1, 1))

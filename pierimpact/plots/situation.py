@@ -27,9 +27,10 @@ _SCALES: tuple[float, ...] = (
     *(step * 10**power for power in range(2, 7) for step in (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 7.5)),
 )
 # On paper [mm]: sizes of supports and gaps; what is kept free right of the column, above it and
-# below it, and between it and the truck; the largest depth of the column; room for the section, and
-# within it for the section itself.
+# below it, and between it and the truck; the largest depth of the column; the middle of the truck's
+# mass from the left at least; room for the section, and within it for the section itself.
 _UNIT, _RIGHT, _ABOVE, _BELOW, _GAP, _DEEPEST = 2.2, 26.0, 10.0, 10.0, 16.0, 22.0
+_FROM_CUT = 11.0
 _ROOM, _FITS = (46.0, 34.0), (22.0, 20.0)
 # Outline of a truck with a bonnet, its nose at zero, driving to the right [m].
 _CAB = ((0.0, 0.45), (0.0, 1.05), (-0.15, 1.45), (-1.25, 1.6), (-1.75, 2.55), (-2.9, 2.6),
@@ -82,9 +83,10 @@ def draw_situation(
         labels.insert(0, Label(axes, words, along, (0.0, 1.0), bold))
         labels += _draw_heights(axes, column, impact_height, -face, mm, system)
         mass = f"{shown(truck.mass, 'mass', system, given=True)}"
-        labels.append(Label(axes, mass, (max(face - _GAP * mm - 2.2, left), 1.1), (0.0, 0.0)))
+        cab = max(face - _GAP * mm - 2.2, left + _FROM_CUT * mm)
+        labels.append(Label(axes, mass, (cab, 1.1), (0.0, 0.0)))
         axes.text(0.01, 0.01, f"Elevation 1:{scale:.0f}", transform=axes.transAxes)
-        place(figure, labels + _add_section(figure, struck, system))
+        place(figure, _add_section(figure, struck, system) + labels)
         return to_svg(figure)
 
 
