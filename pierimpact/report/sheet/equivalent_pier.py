@@ -163,11 +163,6 @@ class EquivalentPierSteps(PierSection):
     def _pieces(self) -> tuple[Piece, ...]:
         return self.calculation.struck.unit_force.pieces
 
-    def _stretch(self, part: Part) -> str:
-        """Return from where to where a part goes."""
-        bottom, top = map(self.placed, (part.bottom, part.top))
-        return f"{bottom.number} to {top}"
-
     def under_unit_force(self) -> Block:
         """Return the shape function as a figure, beside what the unit force does."""
         tables = [self.unit_forces(), self.stiffness(), self.shape_table()]
@@ -231,7 +226,7 @@ class EquivalentPierSteps(PierSection):
             ),
             rows=[
                 [
-                    self._stretch(piece.part),
+                    self.stretch(piece.part.bottom, piece.part.top),
                     *(
                         self.number(values(piece.part)[name], SYMBOLS[name].quantity)
                         for name in names
@@ -272,7 +267,7 @@ class EquivalentPierSteps(PierSection):
         """Return the deflection at the impact as the work of parts and springs."""
         rows: list[list[Inline]] = [
             [
-                self._stretch(piece.part),
+                self.stretch(piece.part.bottom, piece.part.top),
                 *(self.number(work, "flexibility") for work in (piece.flexure, piece.shearing)),
                 self.number(piece.work, "flexibility"),
             ]
@@ -320,7 +315,7 @@ class EquivalentPierSteps(PierSection):
             z = np.linspace(part.bottom, part.top, 3)
             rows.append(
                 [
-                    self._stretch(part),
+                    self.stretch(part.bottom, part.top),
                     *(self.number(float(phi), "ordinate") for phi in struck.shape(z)),
                     self.number(square, "length"),
                     self.number(part.mass_per_length * square, "mass"),

@@ -113,7 +113,9 @@ class FirstPage(Section):
         for name, quantity in DEMANDS.items():
             check = result.checks.get(name)
             demand = check.demand if check else result.demands[name]
-            where = f", {self.part(check.part)}" if check and len(self.case.parts) > 1 else ""
+            where = (
+                f", {self.stretch(*check.part[:2])}" if check and len(self.case.parts) > 1 else ""
+            )
             cells: list[Inline] = [
                 f"{name.capitalize()} [{self.unit(quantity)}]",
                 self.number(demand.static, quantity),

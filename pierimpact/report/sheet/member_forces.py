@@ -171,7 +171,7 @@ class MemberForces(Section):
             for own in (result.impacts if several else ())
         ]
         found += [
-            (f"From {self.part(part)}", result.demands_of(part), part.resistances)
+            (f"From {self.stretch(*part[:2])}", result.demands_of(part), part.resistances)
             for part in (parts if resisting else ())
         ]
         if not found:
@@ -335,7 +335,7 @@ class MemberForces(Section):
         ]  # fmt: skip
         height = self.stated(struck.impact_height, "length")
         at_height = f", struck at {height}," if len(result.impacts) > 1 else ""
-        in_part = f" from {self.part(part)}" if len(self.case.parts) > 1 else ""
+        in_part = f" from {self.stretch(*part[:2])}" if len(self.case.parts) > 1 else ""
         return Table(
             label="tab-yielding",
             caption=f"If the column{at_height} yields in bending{in_part}: the full model, elastic "

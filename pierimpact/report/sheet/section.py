@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from pierimpact.files.case import Case, Part
+from pierimpact.files.case import Case
 from pierimpact.report.calculation import Calculation
 from pierimpact.units import Printed, placed, printed, stated, unit_of
 
@@ -33,10 +33,9 @@ class Section:
         """Return the anchors of what introduces symbols, by the names of the symbols."""
         return {}
 
-    def part(self, part: Part) -> str:
+    def stretch(self, low: float, high: float) -> str:
         """Return from where to where a part of the column goes."""
-        low, high = map(self.placed, (part.low, part.high))
-        return f"{low.number} to {high}"
+        return f"{self.placed(low).number} to {self.placed(high)}"
 
     def shown(self, value: float, quantity: str, *, given: bool = False) -> Printed:
         """Return a value as the sheet prints it; arguments as in `units.printed`."""
