@@ -113,9 +113,8 @@ class FirstPage(Section):
         for name, quantity in DEMANDS.items():
             check = result.checks.get(name)
             demand = check.demand if check else result.demands[name]
-            where = (
-                f", {self.stretch(*check.part[:2])}" if check and len(self.case.parts) > 1 else ""
-            )
+            in_part = check and check.part != self.case.whole
+            where = f", {self.stretch(*check.part[:2])}" if check and in_part else ""
             cells: list[Inline] = [
                 f"{name.capitalize()} [{self.unit(quantity)}]",
                 self.number(demand.static, quantity),

@@ -177,11 +177,12 @@ class MemberForces(Section):
         if not found:
             return None
         methods = ("static", "beam") if result.governing.beam is not None else ("static",)
+        apart = [n for n in result.resistances if len({own.resistances[n] for own in parts}) > 1]
         heads = []
         for name, quantity in DEMANDS.items():
             unit = self.unit(quantity)
             heads += [decimal(f"{name.capitalize()}, {method} [{unit}]") for method in methods]
-            if resisting and name in result.resistances:
+            if name in apart:
                 heads.append(decimal("Resistance"))
         rows: list[list[Inline]] = []
         for words, demands, resistances in found:
@@ -189,7 +190,7 @@ class MemberForces(Section):
             for name, quantity in DEMANDS.items():
                 demand = demands[name]
                 row += [self.number(getattr(demand, method), quantity) for method in methods]
-                if resisting and name in result.resistances:
+                if name in apart:
                     limit = resistances.get(name)
                     row.append("" if limit is None else self.number(limit, quantity, given=True))
             rows.append(row)
@@ -335,7 +336,7 @@ class MemberForces(Section):
         ]  # fmt: skip
         height = self.stated(struck.impact_height, "length")
         at_height = f", struck at {height}," if len(result.impacts) > 1 else ""
-        in_part = f" from {self.stretch(*part[:2])}" if len(self.case.parts) > 1 else ""
+        in_part = "" if part == self.case.whole else f" from {self.stretch(*part[:2])}"
         return Table(
             label="tab-yielding",
             caption=f"If the column{at_height} yields in bending{in_part}: the full model, elastic "
