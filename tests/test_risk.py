@@ -219,6 +219,36 @@ def test_nothing_that_exceeds_is_no_proof_of_never():
     assert [float(part) for part in none.total] == [0.0, 0.0, 0.0]
 
 
+@given(st.integers(0, 10**6))
+@settings(max_examples=5)
+def test_rough_values_corrected_by_some_better_ones_are_exceeded_as_often(seed):
+    """Of 100 samples nearly all bands hold the frequency, and they are narrower than of the few."""
+    random = np.random.default_rng(seed)
+    level, size, few, held, narrower = 2.0, 3000, 300, 0, 0
+    true = stats.norm.sf(level / math.hypot(1.0, 0.2))
+    for _ in range(100):
+        rough = random.standard_normal(size)
+        better = rough[:few] + 0.2 * random.standard_normal(few)
+        found = Exceedance(rough, np.ones(size), 1.0, better).rate(level)
+        alone = Exceedance(better, np.ones(few), 1.0).rate(level)
+        held += bool(found.low <= true <= found.high)
+        narrower += bool(found.high - found.low < alone.high - alone.low)
+    assert held >= 87
+    assert narrower > 87
+
+
+def test_where_all_values_are_better_known_the_rough_ones_do_not_count():
+    random = np.random.default_rng(1)
+    rough, better, weights = random.random((3, 50))
+    known, same = Exceedance(rough, weights, 2.0, better), Exceedance(better, weights, 2.0)
+    for one, other in zip(known.rate(better), same.rate(better), strict=True):
+        np.testing.assert_array_equal(one, other)
+    alike = Exceedance(rough, weights, 2.0, rough[:9])
+    np.testing.assert_array_equal(
+        alike.rate(rough).value, Exceedance(rough, weights, 2.0).rate(rough).value
+    )
+
+
 @given(st.floats(1e-9, 1e3), st.floats(0.0, 100.0))
 def test_the_chance_of_an_event_is_that_of_poisson(rate, time):
     assert float(probability(rate, time)) == pytest.approx(stats.poisson.sf(0, rate * time))
@@ -273,6 +303,16 @@ def test_the_collisions_are_those_of_peak_reactions():
     )
     np.testing.assert_allclose(strikes.reaction[there], exact.governing, rtol=1e-12)
     np.testing.assert_array_equal(strikes.by_engine[there], ~(exact.cargo > exact.engine))
+
+
+def test_of_several_piers_the_larger_reaction_counts():
+    piers = (PIER, EquivalentPier.from_frequency(20e3, 60.0))
+    traffic = jcss_traffic(1.0, 5.0)
+    both = risk(traffic, [LIGHT], piers, 100).strikes
+    one, other = (risk(traffic, [LIGHT], pier, 100).strikes for pier in piers)
+    np.testing.assert_array_equal(both.reaction, np.maximum(one.reaction, other.reaction))
+    by_engine = np.where(one.reaction >= other.reaction, one.by_engine, other.by_engine)
+    np.testing.assert_array_equal(both.by_engine, by_engine)
 
 
 def test_the_tail_of_the_full_model_is_that_of_plain_monte_carlo():
@@ -394,7 +434,7 @@ def test_weighed_trucks_keep_mass_and_speed_together():
 def test_a_block_alone_is_that_of_all():
     traffic = jcss_traffic(0.05, 300.0)
     whole = risk(traffic, [LIGHT], PIER, BLOCK + 100, 2).strikes
-    task = Task(traffic, (LIGHT,), PIER, BLOCK + 100, 2, 0.6)
+    task = Task(traffic, (LIGHT,), (PIER,), BLOCK + 100, 2, 0.6)
     last = strikes_of(pickle.loads(pickle.dumps(task)), 1)  # as another process does
     for part, every in zip(last, whole, strict=True):
         np.testing.assert_array_equal(part, every[BLOCK:])

@@ -1,25 +1,28 @@
 """The risk of a case from its traffic: what it comes to, on a terminal or for a program."""
 
 import json
+import math
 import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pierimpact.checks import InputError
-from pierimpact.collision.simulate import simulate
 from pierimpact.files.case import Case
 from pierimpact.files.traffic import NEEDED, CaseTraffic
-from pierimpact.pier.column import StruckColumn
 from pierimpact.plain_text import WIDTH, text_item, text_table
 from pierimpact.report.calculation import Calculation, calculate
-from pierimpact.risk.analysis import SIZE, Feared, Risk, Run, Strike, in_turn, risk
-from pierimpact.risk.exceedance import Estimate, probability
+from pierimpact.risk.analysis import SIZE, Feared, Risk, Run, in_turn, risk, weighted_quantiles
+from pierimpact.risk.beam_strikes import beam_strikes
+from pierimpact.risk.exceedance import Estimate, Exceedance, probability
 from pierimpact.risk.traffic import YEAR, Traffic
 from pierimpact.units import printed, rounded, unit_of, unit_size
+
+Array: TypeAlias = NDArray[np.float64]
 
 #: Frequencies a year at which the reaction is stated: this project's choice.
 RATES = (1e-3, 1e-4)
@@ -27,8 +30,9 @@ RATES = (1e-3, 1e-4)
 TXDOT = 1e-3
 #: Resistances, and what is exceeded.
 RESISTANCES = {"shear": "shear_resistance", "moment": "moment_resistance"}
-#: So many collisions are followed with the column as a beam: this project's choice.
-_AS_BEAM = 7
+#: What the beam has over the static forces is told of reactions within this share of one: this
+#: project's choice.
+_NEAR = 0.2
 #: What the table of a terminal has room for in each column [characters].
 _WIDEST = (30, 30, WIDTH - 64)
 
@@ -38,13 +42,15 @@ class Check(NamedTuple):
 
     name: str  #: "shear" or "moment"
     resistance: float  #: [N] or [N m]
-    reaction: float  #: reaction that brings it about [N]
+    reaction: (
+        float  #: reaction that is exceeded as often; infinite where none of the trucks does [N]
+    )
     rate: Estimate  #: [1/year]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CaseRisk:
-    """The risk of a case at the nominal impact height that governs its design."""
+    """The risk of a case: of each truck the larger effect of all its nominal impact heights."""
 
     case: Case
     calculation: Calculation  #: of the case, its own truck at its own speed
@@ -52,63 +58,76 @@ class CaseRisk:
     risk: Risk
 
     @property
-    def struck(self) -> StruckColumn:
-        """The column under a unit force at the impact height."""
-        return self.calculation.struck
-
-    @property
     def hits(self) -> Estimate:
         """Trucks that reach the pier [1/year]."""
         return yearly(self.risk.reaction.total)
 
-    @cached_property
-    def _as_beam(self) -> list[Strike]:
-        """A few of the collisions about the reaction that is exceeded once in 10 000 years.
+    @property
+    def heights(self) -> list[float]:
+        """The nominal impact heights [m]."""
+        return [impact.struck.impact_height for impact in self.calculation.impacts]
 
-        Empty where no reaction is exceeded so often.
+    @cached_property
+    def static(self) -> dict[str, Array]:
+        """Largest "shear" and "moment" under the reaction of each truck as a static force."""
+        found = {}
+        for name in RESISTANCES:
+            effects = [
+                abs(getattr(impact.struck.member_forces(1.0), f"largest_{name}").value)
+                for impact in self.calculation.impacts
+            ]
+            found[name] = (self.risk.strikes.reactions * effects).max(axis=1)
+        return found
+
+    @cached_property
+    def as_beam(self) -> dict[str, Array]:
+        """The same of the first trucks with the column as a beam.
+
+        Empty where the case asks for static ones.
         """
-        reaction = float(self.risk.reaction.value(RATES[-1] / YEAR).value)
-        return self.risk.nearest(reaction, _AS_BEAM) if reaction > 0.0 else []
+        beams = [impact.beam for impact in self.calculation.impacts if impact.beam is not None]
+        return beam_strikes(self.risk, beams)._asdict() if beams else {}
+
+    @cached_property
+    def effects(self) -> dict[str, Exceedance]:
+        """How often "shear" and "moment" are exceeded by the method that the case asks for.
+
+        Static ones are those of all trucks; what the beam makes of the first corrects them.
+        """
+        found = {}
+        for name, static in self.static.items():
+            better = self.as_beam.get(name)
+            if better is not None and self.case.inputs.member_forces == "larger":
+                better = np.maximum(better, static[: len(better)])
+            found[name] = self.risk.exceedance(static, better)
+        return found
 
     @cached_property
     def beam(self) -> dict[str, tuple[float, float, float]]:
         """Shear and moment of the column as a beam over those of the reaction as a static force.
 
-        The least, the median and the largest of a few of the collisions about the reaction that is
-        exceeded once in 10 000 years; empty where there is none, or the case asks for static ones.
+        What 5, 50 and 95 % stay below of the trucks whose reaction is about that exceeded once in
+        10 000 years; empty where there is none, or the case asks for static ones.
         """
-        inputs, column = self.case.inputs, self.case.column
-        if inputs.member_forces == "static" or not self._as_beam:
+        near, weight = self._near, self.risk.strikes.weight
+        if not self.as_beam or not near.any():
             return {}
-        beam = column.beam(self.struck.impact_height, inputs.damping_ratio)
-        ratios = []
-        for truck, speed, reaction in self._as_beam:
-            own = simulate(truck, beam, speed).member_forces
-            assert own is not None
-            static = self.struck.member_forces(reaction)
-            ratios.append(
-                [
-                    abs(own.shear_extremes.governing.value / static.largest_shear.value),
-                    abs(own.moment_extremes.governing.value / static.largest_moment.value),
-                ]
+        return {
+            name: weighted_quantiles(
+                own[near] / self.static[name][: len(own)][near], weight[: len(own)][near]
             )
-        least, middle, most = np.quantile(ratios, (0.0, 0.5, 1.0), axis=0).tolist()
-        return dict(zip(RESISTANCES, zip(least, middle, most, strict=True), strict=True))
+            for name, own in self.as_beam.items()
+        }
 
     @cached_property
-    def effects(self) -> dict[str, float]:
-        """Largest shear [-] and moment [m] anywhere over the reaction that brings it about.
-
-        By the method that the case asks for: under the reaction as a static force, times the median
-        ratio of `beam` or the larger of that and one.
-        """
-        forces, asked = self.struck.member_forces(1.0), self.case.inputs.member_forces
-        static = {"shear": forces.largest_shear.value, "moment": forces.largest_moment.value}
-        found = {}
-        for name, value in static.items():
-            ratio = self.beam.get(name, (1.0, 1.0, 1.0))[1]
-            found[name] = abs(value) * (ratio if asked == "beam" else max(ratio, 1.0))
-        return found
+    def _near(self) -> NDArray[np.bool_]:
+        """Which of the trucks with the column as a beam are told of."""
+        at = float(self.risk.reaction.value(RATES[-1] / YEAR).value)
+        count = len(next(iter(self.as_beam.values()), ()))
+        reaction, weight = (
+            own[:count] for own in (self.risk.strikes.reaction, self.risk.strikes.weight)
+        )
+        return (weight > 0.0) & (at > 0.0) & (abs(reaction - at) <= _NEAR * at)
 
     @cached_property
     def checks(self) -> list[Check]:
@@ -117,17 +136,22 @@ class CaseRisk:
         for name, key in RESISTANCES.items():
             resistance = getattr(self.case.inputs, key)
             if resistance is not None:
-                reaction = resistance / self.effects[name]
-                rate = yearly(self.risk.reaction.rate(reaction))
-                found.append(Check(name, resistance, reaction, rate))
+                rate = self.effects[name].rate(resistance)
+                found.append(Check(name, resistance, self.as_often(rate), yearly(rate)))
         return found
+
+    def as_often(self, rate: Estimate) -> float:
+        """Return the reaction that is exceeded as often, infinite where nothing is [N]."""
+        if not rate.value > 0.0:
+            return math.inf
+        return float(self.risk.reaction.value(float(rate.value)).value)
 
     @cached_property
     def level(self) -> float:
         """The reaction whose trucks are looked at [N].
 
-        The lowest that a resistance stands for, or else the one exceeded once in 10 000 years; the
-        lowest of both levels that any truck brings about.
+        The lowest that is exceeded as often as a resistance, or else the one exceeded once in
+        10 000 years; the lowest of both levels that any truck brings about.
         """
         at = [check.reaction for check in self.checks]
         at = [min(at)] if at else []
@@ -160,14 +184,13 @@ class CaseRisk:
             f"The trucks are {' and '.join(statuses)}: {', '.join(self.truck_names)}. A reaction "
             "is as good as their parameters."
         )
-        count = len(self._as_beam)
         for name, (least, middle, most) in self.beam.items():
             found.append(
-                f"The largest {name} is taken as {rounded(self.effects[name], 3)} times the "
-                f"reaction{' in metres' * (name == 'moment')}. The column as a beam has "
-                f"{rounded(middle, 2)} ({rounded(least, 2)}–{rounded(most, 2)}) times the {name} "
-                f"under the reaction as a static force, in {count} collision{'s' * (count != 1)} "
-                f"about the reaction at {RATES[-1]:g} a year."
+                f"The column as a beam has {rounded(middle, 2)} ({rounded(least, 2)}–"
+                f"{rounded(most, 2)}) times the {name} under the reaction as a static force: "
+                f"median, and 5 to 95 % of {int(self._near.sum())} collisions about the reaction "
+                f"at {RATES[-1]:g} a year. How often a {name} is exceeded rests on "
+                f"{self.effects[name].corrected:,} collisions of the beam, and its band shows that."
             )
         return found
 
@@ -208,7 +231,7 @@ def case_risk(
     found = risk(
         case.traffic.traffic,
         [file.truck for file in case.traffic.truck_files],
-        calculation.pier,
+        [impact.history.pier for impact in calculation.impacts],
         size,
         seed,
         run=run,
@@ -273,15 +296,14 @@ def lines(result: CaseRisk) -> Iterator[Line]:
         yield Line(
             f"{check.name.capitalize()} above {resistance}",
             rate_text(check.rate),
-            f"from a reaction of {result.force(check.reaction)} on; "
-            f"{share_text(result, check.reaction)} of all hits",
+            _as_often(result, check),
         )
     design = result.calculation.design_force
     yield Line(
         "Above the design reaction",
         rate_text(yearly(found.reaction.rate(design))),
         f"{result.force(design)}, of the case’s own truck at its own speed; "
-        f"{share_text(result, design)} of all hits",
+        f"{share_text(result, found.reaction.rate(design))} of all hits",
     )
     feared = result.feared
     if feared is not None:
@@ -289,7 +311,7 @@ def lines(result: CaseRisk) -> Iterator[Line]:
             f"{rounded(values[1] / size, 3)} {unit} ({rounded(values[0] / size, 3)}–"
             f"{rounded(values[2] / size, 3)})"
             for values, size, unit in (
-                (feared.mass, *_large_mass(system)),
+                (feared.mass, *large_mass(system)),
                 (feared.speed, unit_size("speed", system), unit_of("speed", system)),
             )
         )
@@ -301,15 +323,23 @@ def lines(result: CaseRisk) -> Iterator[Line]:
         )
 
 
-def _large_mass(system: str) -> tuple[float, str]:
+def large_mass(system: str) -> tuple[float, str]:
     """Return the size of the unit for masses of trucks, and the unit."""
     return (1e3, "t") if system == "SI" else (unit_size("mass", "US"), unit_of("mass", "US"))
 
 
-def share_text(result: CaseRisk, reaction: float) -> str:
-    """Return the share of all hits whose reaction is above a value [N], as it prints."""
-    above, of = result.risk.reaction.rate(reaction).value, result.risk.reaction.total.value
-    return f"{rounded(100.0 * float(above / of), 2)} %" if of > 0.0 else "none"
+def _as_often(result: CaseRisk, check: Check) -> str:
+    """Return what a resistance's frequency is like."""
+    if check.reaction == math.inf:
+        return "by none of the trucks drawn"
+    share = share_text(result, result.effects[check.name].rate(check.resistance))
+    return f"as often as a reaction of {result.force(check.reaction)}; {share} of all hits"
+
+
+def share_text(result: CaseRisk, rate: Estimate) -> str:
+    """Return the share of all hits that a rate [1/s] is, as it prints."""
+    of = float(result.risk.reaction.total.value)
+    return f"{rounded(100.0 * float(rate.value) / of, 2)} %" if of > 0.0 else "none"
 
 
 def rate_text(rate: Estimate) -> str:
@@ -354,6 +384,18 @@ def drawn(result: CaseRisk) -> str:
     return f"{size:,} truck{'' if size == 1 else 's'} drawn with seed {seed}"
 
 
+def heights_text(result: CaseRisk) -> str:
+    """Return in a sentence at which height the trucks strike."""
+    system = result.case.inputs.units
+    shown = [str(printed(height, "length", system, given=True)) for height in result.heights]
+    if len(shown) == 1:
+        return f"The trucks strike at a nominal height of {shown[0]}."
+    return (
+        f"The trucks strike at nominal heights of {' and '.join(shown)}; of each the larger "
+        "reaction, shear and moment count."
+    )
+
+
 def risk_text(name: str, result: CaseRisk) -> str:
     """Return the risk of a case in plain text.
 
@@ -370,6 +412,7 @@ def risk_text(name: str, result: CaseRisk) -> str:
             *textwrap.wrap(statement(result), WIDTH),
             "",
             text_table(list(lines(result)), widest=_WIDEST),
+            *textwrap.wrap(heights_text(result), WIDTH),
             "",
             f"Traffic ({drawn(result)}; bands hold 95 %)",
             text_table(list(laws(result.traffic.traffic)), widest=_WIDEST),
@@ -405,12 +448,13 @@ def risk_json(name: str, result: CaseRisk) -> str:
         "checks": {
             check.name: {
                 "resistance": check.resistance,
-                "reaction": check.reaction,
+                "reaction": _finite(check.reaction),
                 "exceeded": _floats(check.rate),
                 "return_period": _finite(1.0 / check.rate.value if check.rate.value else None),
             }
             for check in result.checks
         },
+        "impact_heights": result.heights,
         "beam_over_static": result.beam,
         "feared": None if feared is None else {"above": result.level} | feared._asdict(),
         "warnings": result.warnings,

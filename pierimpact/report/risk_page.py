@@ -4,8 +4,10 @@ import csv
 import io
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 import pierimpact
 from pierimpact.files.unchanged import put_unchanged
@@ -18,6 +20,8 @@ from pierimpact.report.risk import (
     TXDOT,
     CaseRisk,
     drawn,
+    heights_text,
+    large_mass,
     laws,
     lines,
     share_text,
@@ -26,9 +30,12 @@ from pierimpact.report.risk import (
     yearly,
 )
 from pierimpact.report.write import folder_for, write_blocks
+from pierimpact.risk.exceedance import Estimate
 from pierimpact.risk.traffic import YEAR
 from pierimpact.symbols import BY_KEY
 from pierimpact.units import Printed, printed, rounded, unit_of, unit_size
+
+Array: TypeAlias = NDArray[np.float64]
 
 #: Frequencies of the table [1/year], and rows of the curve as CSV: this project's choice.
 _FREQUENCIES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
@@ -73,8 +80,8 @@ def write_risk(
 def risk_csv(result: CaseRisk) -> str:
     """Return the curve as comma-separated values, units in the header.
 
-    The share of hits is that which exceeds the reaction; shear and moment are the largest anywhere
-    that it brings about, by `CaseRisk.effects`.
+    The share of hits is that which exceeds the reaction; shear and moment are those, the largest
+    anywhere, that are exceeded as often.
     """
     system, found = result.case.inputs.units, result.risk
     x = reactions(found, _ROWS)
@@ -82,7 +89,7 @@ def risk_csv(result: CaseRisk) -> str:
     total = float(result.hits.value) or 1.0
     force, moment = (unit_of(quantity, system) for quantity in ("force", "moment"))
     of_shear, of_moment = (
-        result.effects[name] * x / unit_size(quantity, system)
+        _as_often(result, name, found.reaction.rate(x)) / unit_size(quantity, system)
         for name, quantity in (("shear", "force"), ("moment", "moment"))
     )
     heads = (
@@ -97,8 +104,18 @@ def risk_csv(result: CaseRisk) -> str:
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(heads)
-    writer.writerows([f"{cell:.5g}" for cell in row] for row in np.transpose(values))
+    writer.writerows(
+        ["" if np.isnan(cell) else f"{cell:.5g}" for cell in row] for row in np.transpose(values)
+    )
     return text.getvalue()
+
+
+def _as_often(result: CaseRisk, name: str, rates: Estimate) -> Array:
+    """Return the "shear" or "moment" that is exceeded at these rates, nan where nothing is."""
+    effect = result.effects[name]
+    return np.array(
+        [effect.value(rate).value if rate > 0.0 else np.nan for rate in rates.value.tolist()]
+    )
 
 
 def risk_blocks(name: str, result: CaseRisk) -> list[Block]:
@@ -126,6 +143,7 @@ def risk_blocks(name: str, result: CaseRisk) -> list[Block]:
         _frequencies(result),
         _feared(result),
         Paragraph(_METHOD),
+        Paragraph(heights_text(result)),
         _inputs(result),
         _laws(result),
         _trucks(result),
@@ -155,14 +173,15 @@ def _exceedance(result: CaseRisk) -> Block:
     marks["design reaction"] = result.calculation.design_force
     levels = {"TxDOT 0.001": TXDOT, "1 in 10 000 years": RATES[1]}
     shares = "; ".join(
-        f"{words} exceeded in {share_text(result, value)} of all hits"
+        f"{words} exceeded in {share_text(result, result.risk.reaction.rate(value))} of all hits"
         for words, value in marks.items()
     )
     return Figure(
         label="fig-exceedance",
         caption="How often a reaction is exceeded, with the 95 % band of the number of trucks "
         "drawn; and fragility, the share of hits in which a resistance of that reaction is "
-        f"exceeded. From the same trucks the formula of JCSS. {shares[:1].upper()}{shares[1:]}.",
+        "exceeded. A resistance to shear or moment stands at the reaction that is exceeded as "
+        f"often. From the same trucks the formula of JCSS. {shares[:1].upper()}{shares[1:]}.",
         alt=f"Frequency of exceedance against reaction on a logarithmic axis. {statement(result)}",
         svg=draw_exceedance(result.risk, marks, levels, result.case.inputs.units),
     )
@@ -173,10 +192,10 @@ def _frequencies(result: CaseRisk) -> Block:
     rows: list[list[Inline]] = []
     for rate in _FREQUENCIES:
         value, simple = (of.value(rate / YEAR) for of in (found.reaction, found.hard_impact))
-        reaction = float(value.value)
         effects = [
-            printed(result.effects[of] * reaction, of_kind, system).number if reaction else "—"
-            for of, of_kind in (("shear", "force"), ("moment", "moment"))
+            printed(most, quantity, system).number if most else "—"
+            for name, quantity in (("shear", "force"), ("moment", "moment"))
+            for most in [float(result.effects[name].value(rate / YEAR).value)]
         ]
         rows.append(
             [
@@ -190,8 +209,8 @@ def _frequencies(result: CaseRisk) -> Block:
     force, moment = unit_of("force", system), unit_of("moment", system)
     return Table(
         label="tab-frequencies",
-        caption="Reactions by how often they are exceeded, with the band; the largest shear and "
-        "moment that they bring about; and the force of JCSS.",
+        caption="Reactions by how often they are exceeded, with the band; the shear and moment, "
+        "the largest anywhere, that are exceeded as often; and the force of JCSS.",
         columns=columns(
             "Times a year",
             decimal("Once in [years]"),
@@ -280,12 +299,13 @@ def _trucks(result: CaseRisk) -> Block:
 
 def _truck_rows(result: CaseRisk) -> Iterator[list[Inline]]:
     strikes = result.risk.strikes
+    size, unit = large_mass(result.case.inputs.units)
     for number, file in enumerate(result.traffic.truck_files):
         mass = strikes.mass[strikes.truck == number]
         if len(mass):
             ends = file.truck.mass_range or (file.truck.mass, file.truck.mass)
             drawn, stand = (
-                f"{rounded(low / 1e3, 3)} to {rounded(high / 1e3, 3)} t"
+                f"{rounded(low / size, 3)} to {rounded(high / size, 3)} {unit}"
                 for low, high in ((mass.min(), mass.max()), ends)
             )
             yield [file.truck.name, drawn, stand, file.status.words]

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.checks import InputError, brief, whole
-from pierimpact.collision.groups import select, single
+from pierimpact.collision.groups import select
+from pierimpact.collision.parameters import Parameters
 from pierimpact.collision.reactions import full_model
-from pierimpact.design.band import truck_of
 from pierimpact.pier.equivalent import EquivalentPier
 from pierimpact.risk.exceedance import Exceedance
 from pierimpact.risk.sampling import BLOCK, TILTED, collisions, draw
@@ -32,9 +32,17 @@ class Strikes(NamedTuple):
     road_speed: Array  #: before the truck leaves the road [m/s]
     speed: Array  #: at the pier; zero where it does not arrive [m/s]
     truck: NDArray[np.int_]  #: which of the trucks
-    reaction: Array  #: governing reaction by the full model; zero without a collision [N]
-    by_engine: NDArray[np.bool_]  #: whether that is the engine peak
+    #: governing reaction of each pier by the full model, shape (n, piers); zero without a collision
+    #: [N]
+    reactions: Array
+    by_engine: NDArray[np.bool_]  #: whether the largest is the engine peak
     hard_impact: Array  #: v √(k m) of JCSS [N]
+
+    @property
+    def reaction(self) -> Array:
+        """The largest of all piers [N]."""
+        largest: Array = self.reactions.max(axis=1)
+        return largest
 
 
 class Task(NamedTuple):
@@ -42,7 +50,7 @@ class Task(NamedTuple):
 
     traffic: Traffic
     trucks: tuple[Truck, ...]
-    pier: EquivalentPier
+    piers: tuple[EquivalentPier, ...]
     size: int  #: of all blocks
     seed: int
     tilted: float
@@ -58,20 +66,22 @@ def strikes_of(task: Task, block: int) -> Strikes:
     arrivals = draw(task.traffic, task.trucks, block, task.seed, size, task.tilted)
     there = arrivals.weight > 0.0
     own = select(arrivals, there)
-    reaction, by_engine = np.zeros(size), np.zeros(size, dtype=bool)
+    reactions, by_engine = np.zeros((2, size, len(task.piers)))
     if there.any():
-        found = full_model(collisions(task.trucks, task.pier, own))
-        reaction[there] = found.governing
-        by_engine[there] = ~(found.cargo > found.engine)
+        for number, pier in enumerate(task.piers):
+            found = full_model(collisions(task.trucks, pier, own))
+            # A collision that does not end, of which there is a warning, counts as a large one.
+            reactions[there, number] = np.where(np.isnan(found.governing), np.inf, found.governing)
+            by_engine[there, number] = ~(found.cargo > found.engine)
+    governs = reactions.argmax(axis=1)
     return Strikes(
         weight=arrivals.weight,
         mass=arrivals.mass,
         road_speed=arrivals.road_speed,
         speed=arrivals.speed,
         truck=arrivals.truck,
-        # A collision that does not end, of which there is a warning, counts as a large one.
-        reaction=np.where(np.isnan(reaction), np.inf, reaction),
-        by_engine=by_engine,
+        reactions=reactions,
+        by_engine=by_engine[np.arange(size), governs] > 0.0,
         hard_impact=arrivals.hard_impact,
     )
 
@@ -85,14 +95,6 @@ class Feared(NamedTuple):
     beyond: float  #: share of them whose mass their truck's springs do not stand for [-]
 
 
-class Strike(NamedTuple):
-    """One of the collisions."""
-
-    truck: Truck
-    speed: float  #: at the pier [m/s]
-    reaction: float  #: [N]
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Risk:
     """How often the reaction of a pier exceeds values.
@@ -102,7 +104,7 @@ class Risk:
 
     traffic: Traffic
     trucks: tuple[Truck, ...]
-    pier: EquivalentPier
+    piers: tuple[EquivalentPier, ...]
     seed: int
     tilted: float
     strikes: Strikes  #: of all draws
@@ -115,27 +117,27 @@ class Risk:
     @cached_property
     def reaction(self) -> Exceedance:
         """Frequencies of reactions by the full model."""
-        return Exceedance(self.strikes.reaction, self.strikes.weight, self.traffic.departures)
+        return self.exceedance(self.strikes.reaction)
 
     @cached_property
     def hard_impact(self) -> Exceedance:
         """Frequencies of the force v √(k m) of JCSS from the same trucks."""
-        return Exceedance(self.strikes.hard_impact, self.strikes.weight, self.traffic.departures)
+        return self.exceedance(self.strikes.hard_impact)
 
-    def nearest(self, reaction: float, count: int) -> list[Strike]:
-        """Return the collisions whose reactions are nearest to one [N], or as many as there are."""
-        apart = np.where(self.strikes.weight > 0.0, abs(self.strikes.reaction - reaction), np.inf)
-        places = np.sort(np.argsort(apart, kind="stable")[:count]).tolist()
-        return [self._strike(place) for place in places if apart[place] < np.inf]
+    def exceedance(self, values: Array, better: Array | None = None) -> Exceedance:
+        """Return the frequencies of values of all draws, as in `Exceedance`."""
+        return Exceedance(values, self.strikes.weight, self.traffic.departures, better)
 
-    def _strike(self, place: int) -> Strike:
-        """Return one of the collisions, drawn once more."""
-        block, row = divmod(place, BLOCK)
-        drawn = draw(self.traffic, self.trucks, block, self.seed, row + 1, self.tilted)
-        one = select(drawn, slice(row, row + 1))
-        own = single(collisions(self.trucks, self.pier, one), 0)
-        truck = truck_of(own, self.trucks[int(one.truck[0])])
-        return Strike(truck, own.speed, float(self.strikes.reaction[place]))
+    def followed_again(self, count: int) -> tuple[NDArray[np.intp], Parameters]:
+        """Return which of the first draws arrive, and their collisions with the first pier.
+
+        Of as many draws as there are, of a block at most.
+        """
+        count = min(count, self.size, BLOCK)
+        arrivals = draw(self.traffic, self.trucks, 0, self.seed, count, self.tilted)
+        there = np.flatnonzero(arrivals.weight > 0.0)
+        own = select(arrivals, there)
+        return there, collisions(self.trucks, self.piers[0], own)
 
     def feared(self, reaction: float) -> Feared | None:
         """Return the trucks that bring about reactions above a value [N]; None without any."""
@@ -175,7 +177,7 @@ def in_turn(task: Callable[[int], Strikes], blocks: Iterable[int]) -> Iterator[S
 def risk(
     traffic: Traffic,
     trucks: Sequence[Truck],
-    pier: EquivalentPier,
+    pier: EquivalentPier | Sequence[EquivalentPier],
     size: int = SIZE,
     seed: int = 0,
     *,
@@ -193,8 +195,9 @@ def risk(
         Traffic beside the pier.
     trucks : sequence of Truck
         What trucks there are, as in `sampling.draw`.
-    pier : EquivalentPier
-        The pier.
+    pier : EquivalentPier or sequence of EquivalentPier
+        The pier; or it as each of several impact heights has it, of which the largest reaction of
+        each truck counts.
     size : int, optional
         Number of trucks drawn.
     seed : int, optional
@@ -215,12 +218,13 @@ def risk(
     fleet = tuple(trucks) if isinstance(trucks, Sequence) else ()
     if not (fleet and all(isinstance(truck, Truck) for truck in fleet)):
         raise InputError(f"trucks must be one or more Trucks, got {brief(trucks)}")
-    task = Task(traffic, fleet, pier, size, seed, tilted)
+    piers = (pier,) if isinstance(pier, EquivalentPier) else tuple(pier)
+    task = Task(traffic, fleet, piers, size, seed, tilted)
     parts = []
     for part in run(partial(strikes_of, task), range(-(-size // BLOCK))):
         parts.append(part)
         progress(len(part.weight))
     strikes = Strikes(*map(np.concatenate, zip(*parts, strict=True)))
     return Risk(
-        traffic=traffic, trucks=task.trucks, pier=pier, seed=seed, tilted=tilted, strikes=strikes
+        traffic=traffic, trucks=fleet, piers=piers, seed=seed, tilted=tilted, strikes=strikes
     )

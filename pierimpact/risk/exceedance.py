@@ -5,6 +5,12 @@ gamma distribution of the same mean and variance, whose upper end counts one mor
 largest weight. Without weights, and for rare values, that is the exact band of a Poisson count; it
 is the band of M. P. Fay and E. J. Feuer, Statistics in Medicine 16 (1997), from memory, with the
 variance of a mean of n draws in place of that of a Poisson count.
+
+Where the values are rough, and better ones are known of the first m draws, those draws correct the
+frequency: it is that of the rough values of all, more by that of the better values of the first m,
+less by that of their rough ones. The variance is the sum of both parts', of which the second has
+only the draws that exceed by one of both; the upper end counts one more of these. Derived here: it
+is the regression estimator of two-phase sampling with a slope of one.
 """
 
 import math
@@ -39,20 +45,38 @@ class Exceedance:
         Of the draws; a weight of zero is a draw that does not count [-].
     frequency : float
         Frequency ν of all events that are drawn from [1/s].
+    better : ndarray, shape (m,), optional
+        Values of the first draws of which those above are rough.
     """
 
-    def __init__(self, values: Array, weights: Array, frequency: float) -> None:
-        counts = weights > 0.0
-        order = np.argsort(-values[counts], kind="stable")
+    def __init__(
+        self, values: Array, weights: Array, frequency: float, better: Array | None = None
+    ) -> None:
         self.frequency, self.size = frequency, len(values)
-        self.values = values[counts][order]  #: that count, the largest first
-        self.weights = weights[counts][order]
-        none = np.zeros(1)
-        self._sum = np.concatenate((none, np.cumsum(self.weights)))
-        self._squares = np.concatenate((none, np.cumsum(self.weights**2)))
-        most = np.maximum.accumulate(self.weights)
+        if better is None or len(better) == len(values):  # all, or none, are better known
+            values, better = values if better is None else better, values[:0]
+        self.corrected = len(better)  #: draws that correct
+        changed = better != values[: len(better)]
+        better, rough = better[changed], values[: len(better)][changed]
+        first = weights[: self.corrected][changed]
+        none, doubt = np.zeros_like(first), np.where(better > rough, 1.0, -1.0) * first**2
+        more = np.concatenate((np.zeros_like(weights), first, -first))
+        doubts = np.concatenate((np.zeros_like(weights), doubt, -doubt))
+        most = np.concatenate((weights, first, first))
+        weights = np.concatenate((weights, none, none))
+        values = np.concatenate((values, better, rough))
+        counts = most > 0.0
+        order = np.flatnonzero(counts)[np.argsort(-values[counts], kind="stable")]
+        self.values = values[order]  #: that count, the largest first
+
+        def sums(parts: Array) -> Array:
+            return np.concatenate((np.zeros(1), np.cumsum(parts[order])))
+
+        self._sum, self._squares = sums(weights), sums(weights**2)
+        self._more, self._doubt = sums(more), sums(doubts)
+        largest = np.maximum.accumulate(most[order])
         # Where no draw exceeds, the next that would counts as much as the largest.
-        self._most = np.concatenate((most[:1], most)) if len(most) else none
+        self._most = np.concatenate((largest[:1], largest)) if len(order) else np.zeros(1)
 
     def rate(self, value: ArrayLike) -> Estimate:
         """Return how often these values are exceeded, with the band [1/s]."""
@@ -86,7 +110,10 @@ class Exceedance:
         n, tail = self.size, 0.5 * (1.0 - CONFIDENCE)
         mean = self._sum[count] / n
         variance = np.maximum(self._squares[count] / n - mean**2, 0.0) / n
-        one = self._most[count] / n
+        one = self._most[count] / (self.corrected or n)
+        if self.corrected:
+            mean = np.maximum(mean + self._more[count] / self.corrected, 0.0)
+            variance += np.maximum(self._doubt[count], 0.0) / self.corrected**2
         upper, spread = mean + one, variance + one**2
         some = variance > 0.0
         scale = np.divide(variance, mean, out=np.ones_like(mean), where=some)
