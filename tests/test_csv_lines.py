@@ -21,10 +21,16 @@ MEASURED = {
 }  # fmt: skip
 
 
-def pier(path):
+def pier(path, number=0):
     table = read_pier_table(path)
-    ((row,),) = table.pieces(9)
-    return table.pier(row)
+    (rows,) = table.pieces(9)
+    return table.pier(rows[number])
+
+
+def pier_number(place, name):
+    """The number of the pier in a row of several."""
+    key = "damping_ratio" if name == "piers, plain" else "shear_resistance"
+    return lambda path: pier(path, place).values[key]
 
 
 # The columns of a table with a number in one of them, and what is read from it.
@@ -109,6 +115,48 @@ def test_a_comma_that_parts_no_columns_is_that_of_decimals(folder, name, separat
         assert read(folder, name, typed, separator, quote="") == number
     for typed in ("1,250", "12,000", "1,250.5", "1.250,5", "1,250,000", "1,"):
         assert "table.csv" in refused(folder, name, typed, separator)
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_a_point_may_part_thousands_where_another_decimal_has_a_comma(
+    folder, name, monkeypatch, tmp_path
+):
+    """The other stands in the row before or after."""
+    columns, number = READERS[name]
+    (column,) = (key for key, cells in columns.items() if None in cells)
+    readers = (number, number)
+    if name.startswith("piers"):
+        readers = (pier_number(0, name), pier_number(1, name))
+    for place in (0, 1):
+        more = {key: list(cells) for key, cells in columns.items()}
+        gap = more[column].index(None)
+        for key, cells in more.items():
+            cell = cells[gap]
+            if key in ("id", "case"):
+                cells[gap : gap + 1] = ["a", "b"] if place else ["b", "a"]
+            elif key == "time [s]":
+                cells.append("60")
+            elif key == column:
+                suffix = "\u00a0N" * name.endswith("in the cell")
+                cells[gap : gap + 1] = [f"2,5{suffix}", None] if place else [None, f"2,5{suffix}"]
+            else:
+                cells[gap : gap + 1] = [cell, cell]
+        monkeypatch.setitem(READERS, name, (more, readers[place]))
+        for typed, ways in {"2.500": "2.5000 or 2500", "1.250.000": "1250000"}.items():
+            line = refused(tmp_path, name, typed, ";")
+            assert "other decimals have a comma, so its point may part thousands" in line
+            assert line.endswith(f"; write {ways}")
+        for typed in ("2.5000", "2500", "0.125", "1234.567"):
+            read(tmp_path, name, typed, ";", quote="")
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_what_is_said_of_a_mark_is_true_where_decimals_may_have_a_comma(folder, name):
+    said = refused(folder, name, "2.400,0", ";")
+    assert "thousands have no mark, decimals a point or a comma" in said
+    for typed, ways in {"1,250": "1,2500 or 1250", "1,250,000": "1250000"}.items():
+        said = refused(folder, name, typed, ";")
+        assert "its comma may part thousands; write " + ways in said
 
 
 @pytest.mark.parametrize("name", READERS)

@@ -106,7 +106,7 @@ BAD = {
     "what may be thousands": (
         "time [ms]; contact force [kN]",
         [line.replace(", ", ";") for line in changed(5, "5;3,250")],
-        "row 7: contact force must be a number, got '3,250': its comma may part thousands, so",
+        "row 7: contact force must be a number, got '3,250': its comma may part thousands; write",
     ),
     "short": (HEADING, rows()[:9], "must have at least 50 rows of numbers, got 9"),
     "no impact": (

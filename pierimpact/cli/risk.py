@@ -22,8 +22,8 @@ _EXIT_CODES = """\
 Exit code: 0, whatever the risk; 2 if the input is bad; 1 if anything failed. The same seed gives
 the same trucks, for any pier and any number of workers.
 """
-# Of so few draws the bands hold less than they say where a rate is small: of 300, 92 of 100 bands at
-# 10⁻⁵ a year held the frequency, of 100 draws 81, of 1,000 as many as they should.
+# Of fewer draws the bands hold less than they say where a rate is small: at 10⁻⁵ a year 92 of 100
+# bands of 300 draws held the frequency, 81 of those of 100, and of 1,000 as many as they should.
 _FEWEST = 1000
 # Below so many blocks processes of their own take longer to begin than they save.
 _WORTH_IT = 4

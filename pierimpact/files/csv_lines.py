@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from enum import IntEnum
 from itertools import chain
 from typing import NamedTuple
 
@@ -13,11 +14,21 @@ from pierimpact.units import DECIMALS, DIGITS
 
 #: A decimal number, or a word for one that is not finite.
 NUMBER = re.compile(rf"[-+]?(?:{DIGITS}|nan|inf(?:inity)?)", re.ASCII | re.IGNORECASE)
-# At the start of a cell; three digits after a comma may be thousands, which is not for us to tell.
-_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}(?!\d)", re.ASCII)
-_COMMA = re.compile(rf"^(?!{_THOUSANDS.pattern})([-+]?\d*),(\d+)(?![\d.,])", re.ASCII)
+# At the start of a cell; three digits after a mark may be thousands, which is not for us to tell.
+_TYPED = re.compile(r"[-+]?[\d.,]+", re.ASCII)
+_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+", re.ASCII)
+_POINTS = re.compile(r"[-+]?[1-9]\d{0,2}(?:\.\d{3})+", re.ASCII)
+_COMMA = re.compile(r"^(?![-+]?[1-9]\d{0,2},\d{3}(?!\d))([-+]?\d*),(\d+)(?![\d.,])", re.ASCII)
 _HEADING = re.compile(r"([^\[\]]*)(?:\[([^\[\]]*)\])?")
 _MOST_CHARACTERS = 10_000  # of a cell; a stray quotation mark would swallow the file
+
+
+class Comma(IntEnum):
+    """Whether the decimals of a table have a comma."""
+
+    NONE = 0  #: none may, for a comma parts columns
+    MAY = 1
+    SOME = 2  #: some do, so that a point may part thousands
 
 
 class Row(NamedTuple):
@@ -25,7 +36,12 @@ class Row(NamedTuple):
 
     number: int  #: as a spreadsheet counts it: the first line is row 1
     cells: list[str]
-    comma: bool = False  #: whether decimals may have a comma, for it parts no columns
+    comma: Comma = Comma.NONE
+
+    def has_comma(self, places: Iterable[int]) -> bool:
+        """Return whether a decimal in these columns has a comma for certain."""
+        own = (self.cells[place] for place in places if place < len(self.cells))
+        return self.comma > 0 and any("," in cell and _COMMA.match(cell.strip()) for cell in own)
 
 
 def csv_rows(lines: Iterable[str], *, comments: bool = False) -> Iterator[Row]:
@@ -43,7 +59,7 @@ def csv_rows(lines: Iterable[str], *, comments: bool = False) -> Iterator[Row]:
             if max(map(len, cells), default=0) > _MOST_CHARACTERS:
                 raise InputError(f"row {number}: a quotation mark is not closed")
             if "".join(cells).strip():
-                yield Row(number, cells, mark != ",")
+                yield Row(number, cells, Comma.NONE if mark == "," else Comma.MAY)
     except csv.Error as error:
         raise InputError(f"row {empty + reader.line_num}: not valid CSV: {error}") from None
 
@@ -72,9 +88,15 @@ def name_and_unit(heading: str) -> tuple[str, str]:
     return " ".join(name.lower().split()), unit.strip()
 
 
+def with_commas(rows: Sequence[Row], places: Sequence[int]) -> Iterator[Row]:
+    """Yield rows that know whether any decimal in the columns of numbers has a comma."""
+    some = any(row.has_comma(places) for row in rows)
+    return (row._replace(comma=Comma.SOME) if some else row for row in rows)
+
+
 def numbers(rows: Iterable[Row], names: Sequence[str]) -> Iterator[tuple[Row, list[float]]]:
     """Yield rows that have a number in each column, with their numbers; errors name the row."""
-    for row in rows:
+    for row in with_commas(list(rows), range(len(names))):
         with in_row(row.number):
             if len(row.cells) != len(names):
                 hint = ""
@@ -86,36 +108,58 @@ def numbers(rows: Iterable[Row], names: Sequence[str]) -> Iterator[tuple[Row, li
         yield row, found
 
 
-def decimal(name: str, text: str, *, comma: bool = False, kind: str = "a number") -> str:
+def decimal(name: str, text: str, *, comma: Comma = Comma.NONE, kind: str = "a number") -> str:
     """Return a finite decimal number as a text that Python reads, with a point.
 
     `text` is a cell or what was typed elsewhere, `comma` whether its decimals may have a comma;
     errors name `name` and `kind`.
     """
-    number, text = with_point(text, comma=comma), text.strip()
+    number, text = with_point(name, text, comma=comma), text.strip()
     if not text:
         raise InputError(f"{name} is blank")
     if not NUMBER.fullmatch(number):
         hint = f": {DECIMALS}" if re.search(r"\d,\d", text) else ""
-        if comma and _THOUSANDS.match(text):
-            one, other = (text.replace(",", mark) for mark in (".", ""))
-            hint = f": its comma may part thousands, so write {one} or {other}"
         raise InputError(f"{name} must be {kind}, got {brief(text)}{hint}")
     if not math.isfinite(float(number)):
         raise InputError(f"{name} must be finite, got {shortened(text, 40)}")
     return number
 
 
-def with_unit(name: str, text: str, unit: str, *, comma: bool = False) -> str:
+def _either(number: str, mark: str) -> str:
+    """Return how to write a number if its mark parts thousands, and how if it parts decimals."""
+    plain = number.replace(mark, "")
+    return f"{number}0 or {plain}" if number.count(mark) == 1 else plain
+
+
+def with_unit(name: str, text: str, unit: str, *, comma: Comma = Comma.NONE) -> str:
     """Return the number of a cell with the unit of its heading; errors as in `decimal`."""
     kind = f"a number, for its unit {unit} is in the heading"
     return f"{decimal(name, text, comma=comma, kind=kind)} {unit}"
 
 
-def with_point(text: str, *, comma: bool) -> str:
+def with_point(name: str, text: str, *, comma: Comma) -> str:
     """Return a cell with a point for the comma of the number at its start, where it may have one.
 
-    Three digits after a comma may be thousands, as in 1,250, and stay as they are.
+    Three digits after a comma may be thousands, as in 1,250, and so may three after a point where
+    other decimals have a comma: errors that name `name`.
     """
     text = text.strip()
-    return _COMMA.sub(r"\1.\2", text) if comma and "," in text else text
+    if not comma or not ("," in text or "." in text):
+        return text
+    typed = _TYPED.match(text)
+    number = typed[0] if typed else ""
+    marks = "," if _THOUSANDS.fullmatch(number) else ""
+    if comma == Comma.SOME and _POINTS.fullmatch(number):
+        marks = "."
+    if marks:
+        why = "its comma may" if marks == "," else "other decimals have a comma, so its point may"
+        raise InputError(
+            f"{name} must be a number, got {brief(text)}: {why} part thousands; write "
+            f"{_either(number, marks)}"
+        )
+    if "," in number and "." in number:
+        raise InputError(
+            f"{name} must be a number, got {brief(text)}: thousands have no mark, decimals a point "
+            "or a comma"
+        )
+    return _COMMA.sub(r"\1.\2", text)

@@ -17,6 +17,7 @@ from typing import Any, Literal, NamedTuple, get_origin
 from pierimpact.checks import InputError, brief, did_you_mean, one_line
 from pierimpact.files.csv_lines import (
     NUMBER,
+    Comma,
     Row,
     csv_rows,
     decimal,
@@ -62,6 +63,11 @@ class Column(NamedTuple):
     unit: str = ""  #: of its cells; "" where they have their own or need none
 
     @property
+    def is_number(self) -> bool:
+        """Whether its cells are numbers, with or without a unit."""
+        return self.key in PLAIN or self.dimension != ""
+
+    @property
     def dimension(self) -> str:
         """What its values are, of `units.DIMENSIONS`; "" where they have no unit."""
         return quantity_of(self.key) if self.key in KEYS else ""
@@ -84,10 +90,13 @@ class PierTable:
     columns: tuple[Column, ...]
     size: int  #: number of rows, the heading not among them
     trucks: tuple[str, ...]  #: that the rows name, sorted
+    has_commas: bool  #: whether some decimal has a comma
 
     def pieces(self, rows: int) -> Iterator[list[Row]]:
         """Yield the rows in order, so many at a time."""
         _, body = _open(self.path)
+        if self.has_commas:
+            body = (row._replace(comma=Comma.SOME) for row in body)
         while piece := list(islice(body, rows)):
             yield piece
 
@@ -118,14 +127,16 @@ def read_pier_table(path: str | Path) -> PierTable:
             sha256 = hashlib.file_digest(file, "sha256").hexdigest()
         heading, body = _open(path)
         columns = _columns(heading)
-        size, trucks = _survey(columns, body)
+        size, trucks, commas = _survey(columns, body)
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise InputError(f"{path}: is not UTF-8 text") from None
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
-    return PierTable(path=path, sha256=sha256, columns=columns, size=size, trucks=trucks)
+    return PierTable(
+        path=path, sha256=sha256, columns=columns, size=size, trucks=trucks, has_commas=commas
+    )
 
 
 def pier_of(columns: Iterable[Column], row: Row) -> Pier:
@@ -153,12 +164,12 @@ def pier_of(columns: Iterable[Column], row: Row) -> Pier:
     return Pier(name, place, values)
 
 
-def _value(column: Column, cell: str, *, comma: bool) -> object:
+def _value(column: Column, cell: str, *, comma: Comma) -> object:
     if column.key in PLAIN:
         return float(decimal(column.key, cell, comma=comma, kind="a plain number"))
     if column.unit and not (column.key == "impact_height" and is_auto(cell)):
         return with_unit(column.key, cell, column.unit, comma=comma)
-    return with_point(cell, comma=comma and column.dimension != "")
+    return with_point(column.key, cell, comma=comma) if column.dimension else cell
 
 
 def _open(path: Path) -> tuple[list[str], Iterator[Row]]:
@@ -218,8 +229,11 @@ def _columns(heading: Iterable[str]) -> tuple[Column, ...]:
     return tuple(columns)
 
 
-def _survey(columns: tuple[Column, ...], body: Iterable[Row]) -> tuple[int, tuple[str, ...]]:
-    """Return the number of rows and the trucks named; refuse ids twice and numbers without unit."""
+def _survey(columns: tuple[Column, ...], body: Iterable[Row]) -> tuple[int, tuple[str, ...], bool]:
+    """Return the number of rows, the trucks named, and whether some decimal has a comma.
+
+    Ids that are there twice and numbers without unit are refused.
+    """
     keys = [column.key for column in columns]
     name, truck = keys.index("id"), keys.index("truck")
     # Columns whose cells must have units: the first cell tells whether the unit was forgotten.
@@ -227,11 +241,13 @@ def _survey(columns: tuple[Column, ...], body: Iterable[Row]) -> tuple[int, tupl
         i: column for i, column in enumerate(columns) if column.dimension and not column.unit
     }
     seen: dict[str, int] = {}
-    trucks, size = set(), 0
+    trucks, size, commas = set(), 0, False
+    of_numbers = [place for place, column in enumerate(columns) if column.is_number]
     for row in body:
         size += 1
         if len(row.cells) != len(columns):
             continue
+        commas = commas or row.has_comma(of_numbers)
         if own := row.cells[name].strip():
             if own in seen:
                 raise InputError(
@@ -242,7 +258,7 @@ def _survey(columns: tuple[Column, ...], body: Iterable[Row]) -> tuple[int, tupl
         for i, column in list(waiting.items()):
             if cell := row.cells[i].strip():
                 del waiting[i]
-                if NUMBER.fullmatch(with_point(cell, comma=row.comma)):
+                if NUMBER.fullmatch(cell.replace(",", ".") if row.comma else cell):
                     unit = DIMENSIONS[column.dimension].units.partition(",")[0]
                     raise InputError(
                         f"{column.key} has no unit in row {row.number}: write it in the heading, "
@@ -250,4 +266,4 @@ def _survey(columns: tuple[Column, ...], body: Iterable[Row]) -> tuple[int, tupl
                     )
     if not size:
         raise InputError("must have a row for each pier, got none")
-    return size, tuple(sorted(trucks - {""}))
+    return size, tuple(sorted(trucks - {""})), commas

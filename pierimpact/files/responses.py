@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Mapping
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,16 @@ from pierimpact.checks import InputError, brief, known, one_line, one_of
 from pierimpact.collision.parameters import Collision
 from pierimpact.design.comparison import RESPONSES, Measured, check_response
 from pierimpact.files.case import case_from, loaded
-from pierimpact.files.csv_lines import Row, csv_rows, decimal, in_row, name_and_unit, with_unit
+from pierimpact.files.csv_lines import (
+    Comma,
+    Row,
+    csv_rows,
+    decimal,
+    in_row,
+    name_and_unit,
+    with_commas,
+    with_unit,
+)
 from pierimpact.files.inputs import PHYSICAL_KEYS
 from pierimpact.files.limits import PIER_MASS, PIER_STIFFNESS, possible, within
 from pierimpact.files.reading import read_text
@@ -61,11 +71,13 @@ def read_responses(path: str | Path) -> list[Measured]:
     units: dict[str, str] = {}
     found: list[Measured] = []
     try:
-        for row in csv_rows(io.StringIO(text, newline="")):
+        rows = csv_rows(io.StringIO(text, newline=""))
+        for heading in islice(rows, 1):
+            with in_row(heading.number):
+                units = _units(heading.cells)
+        of_numbers = [place for place, own in enumerate(units.items()) if _is_number(*own)]
+        for row in with_commas(list(rows), of_numbers):
             with in_row(row.number):
-                if not units:
-                    units = _units(row.cells)
-                    continue
                 if len(found) == _ROWS:
                     raise InputError(f"there must be at most {_ROWS} cases")
                 found.append(_measured(_given(units, row), path.parent))
@@ -120,11 +132,15 @@ def _given(units: Mapping[str, str], row: Row) -> dict[str, Any]:
     }
 
 
-def _value(name: str, cell: str, unit: str, *, comma: bool) -> str | float:
+def _is_number(name: str, unit: str) -> bool:
+    return unit != "" or (name in BY_KEY and BY_KEY[name].quantity != "")
+
+
+def _value(name: str, cell: str, unit: str, *, comma: Comma) -> str | float:
     """Return a quantity with its unit, a ratio as a number, and a word as it is."""
     if unit:
         return with_unit(name, cell, unit, comma=comma)
-    if name in BY_KEY and BY_KEY[name].quantity:
+    if _is_number(name, unit):
         return float(decimal(name, cell, comma=comma))
     return cell
 
