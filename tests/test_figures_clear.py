@@ -165,7 +165,7 @@ def test_two_impact_heights_have_one_label():
     column = CASES["usual"][1]
     forces = {z: column.member_forces(1e6, z) for z in (1.05, 1.35)}
     impacts = [(forces[z], forces[z], None) for z in (1.35, 1.05)]
-    drawn = figure_of(envelopes.draw_envelopes, impacts, (None, None), {}, "SI")
+    drawn = figure_of(envelopes.draw_envelopes, impacts, resisting(column, (None, None)), {}, "SI")
     words = [text.get_text() for text in drawn.axes[0].texts]
     assert [each for each in words if " m" in each] == ["$z_\\mathrm{n}$ = 1.05 m\nand 1.35 m"]
     assert collisions(drawn) == []
