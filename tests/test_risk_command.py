@@ -297,6 +297,41 @@ def test_shear_and_moment_are_the_larger_of_both_methods_in_each_collision(resul
         assert 0.3 < least <= middle <= most < 3.0
 
 
+def test_each_part_of_a_column_is_held_against_what_it_resists():
+    step = {"height": "2.4 m", "column_shape": "circular", "column_diameter": "0.7 m"}
+    own = {"shear_resistance": "1.5 MN", "moment_resistance": "2 MN*m"}
+    values = CASE | {"moment_resistance": "5 MN*m", "steps": [step | own]}
+    result = case_risk(case_from(values), 300, 3)
+    parts, impact = result.case.parts, result.calculation.governing
+    there, trucks = result.risk.followed_again(300)
+    for place in np.argsort(-trucks.speed)[[0, 40, 120]].tolist():
+        draw = there[place]
+        truck = truck_of(single(trucks, place), result.risk.trucks[result.risk.strikes.truck[draw]])
+        forces = simulate(truck, impact.beam, float(trucks.speed[place])).member_forces
+        static = impact.struck.member_forces(float(result.risk.strikes.reaction[draw]))
+        for name in ("shear", "moment"):
+            by_beam, by_static = zip(
+                *(
+                    (
+                        abs(getattr(there, f"{name}_extremes").governing.value) / limit,
+                        getattr(static, f"{name}_within")(part.low, part.high) / limit,
+                    )
+                    for part in parts
+                    for there in [forces.between(part.low, part.high)]
+                    for limit in [part.resistances[name]]
+                ),
+                strict=True,
+            )
+            base = parts[0].resistances[name]
+            assert result.as_beam[name][draw] / base == pytest.approx(max(by_beam), rel=0.03)
+            assert result.static[name][draw] / base == pytest.approx(max(by_static), rel=1e-9)
+    assert "Shear resistance of a part" in risk_text("pier.yaml", result)
+    unstepped = values | {"steps": [step]}
+    plain = case_risk(case_from(unstepped), 300, 3)
+    for check, of_one in zip(result.checks, plain.checks, strict=True):
+        assert float(check.rate.value) >= float(of_one.rate.value)
+
+
 def test_frequencies_of_shear_and_moment_agree_between_seeds_within_their_bands():
     """Of a slender column, whose shear as a beam differs much from truck to truck."""
     values = CASE | {"column_diameter": "0.762 m", "column_height": "8 m"}

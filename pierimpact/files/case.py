@@ -11,6 +11,9 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from pierimpact.checks import InputError, brief, shortened
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
 from pierimpact.files.inputs import Inputs, SectionInputs, StepInputs, read_inputs
@@ -103,6 +106,17 @@ class Case:
             resistances |= {name: value for name, value in given.items() if value is not None}
             parts.append(Part(low, high, section, dict(resistances)))
         return tuple(parts)
+
+    def weakness(self, name: str, heights: ArrayLike) -> NDArray[np.float64]:
+        """Return what the base resists of "shear" or "moment" over what the column does at heights.
+
+        One where the case gives no resistance; of two parts that meet the larger [-].
+        """
+        z, found = np.asarray(heights), []
+        for part in self.parts:
+            ratio = self.parts[0].resistances.get(name, 1.0) / part.resistances.get(name, 1.0)
+            found.append(np.where((z >= part.low) & (z <= part.high), ratio, 0.0))
+        return np.asarray(np.max(found, axis=0))
 
     @property
     def whole(self) -> Part:

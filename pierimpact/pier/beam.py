@@ -81,6 +81,10 @@ class BeamPier:
         """Mass 1/Σ φ(z_n)² that resists a sudden force at z_n [kg]."""
         return float(1.0 / np.sum(self.impact_deflection**2))
 
+    def weighted(self, shear: Array, moment: Array) -> "BeamPier":
+        """Return the same beam, its shear and moment times weights at `z`, each of shape (m,)."""
+        return replace(self, shear=self.shear * shear, moment=self.moment * moment)
+
     def between(self, low: float, high: float) -> "BeamPier":
         """Return the same beam, whose fields are those of its heights from one to another [m]."""
         own = (self.z >= low) & (self.z <= high)

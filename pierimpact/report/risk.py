@@ -69,11 +69,19 @@ class CaseRisk:
 
     @cached_property
     def static(self) -> dict[str, Array]:
-        """Largest "shear" and "moment" under the reaction of each truck as a static force."""
+        """Largest "shear" and "moment" under the reaction of each truck as a static force.
+
+        Where parts of the column differ in what they resist, times what the base resists over what
+        the part does.
+        """
         found = {}
         for name in RESISTANCES:
             effects = [
-                abs(getattr(impact.struck.member_forces(1.0), f"largest_{name}").value)
+                max(
+                    getattr(impact.struck.member_forces(1.0), f"{name}_within")(part.low, part.high)
+                    * float(self.case.weakness(name, 0.5 * (part.low + part.high)))
+                    for part in self.case.parts
+                )
                 for impact in self.calculation.impacts
             ]
             found[name] = (self.risk.strikes.reactions * effects).max(axis=1)
@@ -85,7 +93,12 @@ class CaseRisk:
 
         Empty where the case asks for static ones.
         """
-        beams = [impact.beam for impact in self.calculation.impacts if impact.beam is not None]
+        weigh = self.case.weakness
+        beams = [
+            impact.beam.weighted(weigh("shear", impact.beam.z), weigh("moment", impact.beam.z))
+            for impact in self.calculation.impacts
+            if impact.beam is not None
+        ]
         return beam_strikes(self.risk, beams)._asdict() if beams else {}
 
     @cached_property
@@ -190,7 +203,7 @@ class CaseRisk:
                 f"{rounded(most, 2)}) times the {name} under the reaction as a static force: "
                 f"median, and 5 to 95 % of {int(self._near.sum())} collisions about the reaction "
                 f"at {RATES[-1]:g} a year. How often a {name} is exceeded rests on "
-                f"{self.effects[name].corrected:,} collisions of the beam, and its band shows that."
+                f"{len(self.as_beam[name]):,} collisions of the beam, and its band shows that."
             )
         return found
 
@@ -275,7 +288,7 @@ def _frequency(rate: float) -> str:
 
 def lines(result: CaseRisk) -> Iterator[Line]:
     """Yield the results, the first ones first."""
-    system, found = result.case.inputs.units, result.risk
+    system, found, parts = result.case.inputs.units, result.risk, result.case.parts
     yield Line(
         "Hits",
         rate_text(result.hits),
@@ -292,9 +305,10 @@ def lines(result: CaseRisk) -> Iterator[Line]:
         )
     for check in result.checks:
         quantity = "force" if check.name == "shear" else "moment"
+        name, apart = check.name.capitalize(), {own.resistances[check.name] for own in parts}
         resistance = printed(check.resistance, quantity, system, given=True)
         yield Line(
-            f"{check.name.capitalize()} above {resistance}",
+            f"{name} resistance of a part" if len(apart) > 1 else f"{name} above {resistance}",
             rate_text(check.rate),
             _as_often(result, check),
         )
