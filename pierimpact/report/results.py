@@ -58,7 +58,7 @@ class Results(BaseModel):
     #: Reactions below which 5 and 95 % of trucks stay; None where no parameter carries a spread.
     band: tuple[float, float] | None
     governs: str
-    largest_shear: float
+    largest_shear: float  #: anywhere on the column
     shear_method: str  #: that it is found by, "beam" or "static"
     largest_moment: float
     moment_method: str
@@ -66,7 +66,8 @@ class Results(BaseModel):
     member_bands: dict[str, tuple[float, float]]
     #: 25 ms average of the contact force over the force of AASHTO LRFD, which is such an average.
     code_ratio: float
-    shear_resistance: float | None  #: of the part of the column that uses it most
+    #: Resistances of the part of the column that uses most of its own, as the utilisations are.
+    shear_resistance: float | None
     moment_resistance: float | None
     utilisations: dict[str, float]  #: by "shear" and "moment", where there is a resistance
     upper_utilisations: dict[str, float]  #: the same at the band's upper end; empty without a band

@@ -201,8 +201,8 @@ _RESULTS_CAPTION = (
     "of the given spread stay below; largest shear ",
     *(Tex("V"), " and moment ", Tex("M"), " anywhere on the column, by the column as a beam or "),
     *("under the static reaction, and over their resistances ", Tex(r"V_\mathrm{R}"), " and "),
-    *(Tex(r"M_\mathrm{R}"), "; code ratio: largest 25 ms average of the contact force over the "),
-    "force of AASHTO LRFD, which is such an average.",
+    *(Tex(r"M_\mathrm{R}"), ", in the part that uses most of its own; code ratio: largest 25 ms "),
+    "average of the contact force over the force of AASHTO LRFD, which is such an average.",
 )
 _CASES_CAPTION = (
     *("Cases: total mass of the truck ", Tex("m_1 + m_2"), ", speed at first touch ", Tex("V")),
