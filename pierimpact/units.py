@@ -455,6 +455,11 @@ def placed(height: float, system: str) -> Printed:
     return Printed(number, unit)
 
 
+def stretch(low: float, high: float, system: str) -> str:
+    """Return from where to where a part of a column goes [m], such as "2.5 to 9 m"."""
+    return f"{placed(low, system).number} to {placed(high, system)}"
+
+
 def rounded(value: float, digits: int) -> str:
     """Return a number to `digits` significant figures, as "0.07059", "27 150" or "4.2×10⁻⁵".
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from pierimpact.plain_text import WIDTH, text_item, text_table
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.outcome import first_results, statement, verdict
+from pierimpact.report.outcome import first_results, most_used, statement, verdict
 from pierimpact.report.results import Results
 from pierimpact.report.warnings import warnings_of
 from pierimpact.units import compared
@@ -48,7 +48,8 @@ def _utilisations(calculation: Calculation) -> Iterator[tuple[str, str, str]]:
         remark = verdict(ratio, at_upper)
         if at_upper is not None:
             remark += f"; {compared(at_upper)} at the upper end of the band"
-        yield f"Utilisation in {name}", compared(ratio), remark
+        part = most_used(calculation, name)
+        yield f"Utilisation in {name}", compared(ratio), f"{part}: {remark}" if part else remark
 
 
 def check_json(name: str, calculation: Calculation) -> str:

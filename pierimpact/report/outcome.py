@@ -6,7 +6,7 @@ from typing import NamedTuple
 from pierimpact.design.codes import aashto_lrfd
 from pierimpact.report.calculation import AVERAGE, Calculation
 from pierimpact.symbols import BY_KEY
-from pierimpact.units import Printed, compared, printed, rounded, stated, unit_of
+from pierimpact.units import Printed, compared, printed, rounded, stated, stretch, unit_of
 
 #: The member forces that are checked, and what kind of quantity they are.
 DEMANDS = {"shear": "force", "moment": "moment"}
@@ -70,6 +70,17 @@ def mark(calculation: Calculation) -> str:
         return "STOP"
     beyond = any(ratio > 1.0 for ratio in calculation.upper_utilisations.values())
     return "CAUTION" if beyond else ""
+
+
+def most_used(calculation: Calculation, name: str) -> str:
+    """Return from where to where the part goes that a utilisation is of.
+
+    Empty where all of the column resists the same.
+    """
+    part = calculation.checks[name].part
+    if part == calculation.case.whole:
+        return ""
+    return stretch(part.low, part.high, calculation.case.inputs.units)
 
 
 def verdict(ratio: float, at_upper: float | None) -> str:

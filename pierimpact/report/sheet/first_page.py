@@ -18,6 +18,7 @@ from pierimpact.report.outcome import (
     first_results,
     listed,
     mark,
+    most_used,
     statement,
     verdict,
 )
@@ -113,13 +114,12 @@ class FirstPage(Section):
         for name, quantity in DEMANDS.items():
             check = result.checks.get(name)
             demand = check.demand if check else result.demands[name]
-            in_part = check and check.part != self.case.whole
-            where = f", {self.stretch(*check.part[:2])}" if check and in_part else ""
+            part = most_used(result, name) if check else ""
             cells: list[Inline] = [
                 f"{name.capitalize()} [{self.unit(quantity)}]",
                 self.number(demand.static, quantity),
                 self.number(demand.beam, quantity),
-                f"{METHODS[demand.method]}{where}",
+                METHODS[demand.method] + (f", {part}" if part else ""),
             ]
             if check is None:
                 rows.append([*cells, "not given", "", *([""] if upper else []), "not checked"])

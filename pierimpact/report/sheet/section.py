@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from pierimpact.files.case import Case
 from pierimpact.report.calculation import Calculation
-from pierimpact.units import Printed, placed, printed, stated, unit_of
+from pierimpact.units import Printed, placed, printed, stated, stretch, unit_of
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Section:
 
     def stretch(self, low: float, high: float) -> str:
         """Return from where to where a part of the column goes."""
-        return f"{self.placed(low).number} to {self.placed(high)}"
+        return stretch(low, high, self.system)
 
     def shown(self, value: float, quantity: str, *, given: bool = False) -> Printed:
         """Return a value as the sheet prints it; arguments as in `units.printed`."""
