@@ -156,8 +156,10 @@ def _remarks(portfolio: Portfolio) -> Iterator[str]:
         yield f"The table below has the worst {LISTED:,} piers; results.csv has all."
     if np.isfinite(numbers["band_low"]).any():
         yield (
-            f"Bands are of {SIZE} sampled trucks a pier, by the closed spectra where these hold, "
-            "some per cent off those of a report, which has a thousand by the full model."
+            f"Bands are of {SIZE} sampled trucks a pier, by the closed spectra where these hold. "
+            "Those of a report have a thousand by the full model: of 634 random piers 9 of 10 ends "
+            "were within 6 % of these, 98 of 100 within 10 %, and all within 21 %; the farthest "
+            "were of slow trucks."
         )
 
 
