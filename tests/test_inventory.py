@@ -68,27 +68,52 @@ def test_a_bridge_becomes_a_pier_by_the_rule_of_its_kind(tmp_path, rules):
         {"structure": "B3", "lanes_under": "00"},
         {"structure": "B4", "built": "1990"},
         {"structure": "B5", "latitude": "42601500"},
+        {"structure": "B7", "latitude": "422015"},
+        {"structure": "B8", "longitude": "181000000"},
         {"structure": "B6", "kind": "2", "latitude": "00000000", "longitude": "", "traffic": ""},
         {"structure": "B2"},
     ]
     found = piers_of(inventory(tmp_path / "nbi.txt", bridges), read_rules(rules))
     piers, held = rows(found.piers), rows(found.held)
-    assert [own["id"] for own in piers] == ["26-00000000000A1, N", "26-B2", "26-B6"]
+    assert [own["id"] for own in piers] == [
+        *("26-00000000000A1, N", "26-B2", "26-B5", "26-B7", "26-B8", "26-B6")
+    ]
     assert [own["id"] for own in held] == [own["id"] for own in piers]
-    assert [own["column_diameter"] for own in piers] == ["36 in", "", "36 in"]
-    assert [own["column_depth"] for own in piers] == ["", "3 ft", ""]
+    assert [own["column_diameter"] for own in piers] == ["36 in", "", *4 * ["36 in"]]
+    assert [own["column_depth"] for own in piers] == ["", "3 ft", *4 * [""]]
     assert float(piers[0]["latitude"]) == pytest.approx(42.0 + 20.0 / 60.0 + 15.0 / 3600.0)
     # Zeros before it may be lost, and it counts as west.
     longitude = -(83.0 + 3.0 / 60.0 + 30.45 / 3600.0)
     assert [float(own["longitude"]) for own in piers[:2]] == pytest.approx([longitude] * 2)
-    assert piers[2]["latitude"] == piers[2]["longitude"] == ""
-    assert [own["trucks [1/day]"] for own in held] == ["2520", "2520", ""]
+    for own in piers[2:]:
+        assert own["latitude"] == own["longitude"] == ""
+    assert [own["trucks [1/day]"] for own in held] == [*5 * ["2520"], ""]
     assert dict(found.left_out) == {
         "no lanes under it": 1,
         "no rule for kind 1, type 2": 1,
-        "latitude is not degrees, minutes, seconds and hundredths": 1,
         "another route of a bridge that has a row already": 1,
     }
+    assert dict(found.blank) == {
+        "latitude is not degrees, minutes, seconds and hundredths": 2,
+        "longitude is more than 180°": 1,
+    }
+
+
+def test_traffic_is_that_of_a_route_under_the_bridge(tmp_path, rules):
+    over, under = {"record": "1", "traffic": "000100"}, {"record": "2", "traffic": "030000"}
+    bridges = [
+        {"structure": "B1", **over}, {"structure": "B1", **under},
+        {"structure": "B2", **under}, {"structure": "B2", **over},
+        {"structure": "B3", **over}, {"structure": "B3", **over},
+        {"structure": "B4", "record": "A"}, {"structure": "B4", **under},
+    ]  # fmt: skip
+    found = piers_of(inventory(tmp_path / "nbi.txt", bridges), read_rules(rules))
+    held = rows(found.held)
+    assert [own["id"] for own in held] == [f"26-B{i}" for i in (1, 2, 3, 4)]
+    assert [own["record"] for own in held] == ["2", "2", "1", "A"]
+    assert [own["route"] for own in held] == ["under", "under", "over", "under"]
+    assert [own["trucks [1/day]"] for own in held] == ["3600", "3600", "12", "2520"]
+    assert found.left_out == {"another route of a bridge that has a row already": 4}
 
 
 def test_numbers_that_are_none(tmp_path, rules):
@@ -100,11 +125,11 @@ def test_numbers_that_are_none(tmp_path, rules):
         {"structure": "B5", "truck_share": "nan"},
     ]
     found = piers_of(inventory(tmp_path / "nbi.txt", bridges), read_rules(rules))
-    assert [own["trucks [1/day]"] for own in rows(found.held)] == ["", ""]
+    assert [own["trucks [1/day]"] for own in rows(found.held)] == ["2520", "", ""]
+    assert dict(found.blank) == {"latitude is not degrees, minutes, seconds and hundredths": 1}
     assert dict(found.left_out) == {
         "no lanes under it": 1,
         "no rule for kind 1, type 2": 1,
-        "latitude is not degrees, minutes, seconds and hundredths": 1,
     }
 
 

@@ -134,8 +134,10 @@ structure, such as
   column_diameter = "36 in"
 
 Beside PIERS.csv, PIERS-inventory.csv has what the inventory holds of the same bridges: coordinates,
-year, lanes under, traffic and trucks a day, and clearances. Tables that are there already are
-replaced, unless somebody changed them.
+year, lanes under, traffic and trucks a day, and clearances. Of a bridge with a record for each of
+its routes these are of one under it, whose trucks can strike the pier; its column route says over
+where there is no such record. Tables that are there already are replaced, unless somebody changed
+them.
 """
 
 
@@ -173,6 +175,8 @@ def _inventory(options: argparse.Namespace) -> int:
     piers = piers_of(Path(options.inventory), rules)
     for reason, count in piers.left_out.most_common():
         complain(f"left out, {count:,}: {reason}")
+    for reason, count in piers.blank.most_common():
+        complain(f"left blank, {count:,}: {reason}")
     if not piers.count:
         raise InputError(f"{options.inventory} has no bridge that gives a pier: nothing written")
     output = Path(options.output)

@@ -46,13 +46,16 @@ ITEMS = {
 #: What a rule can ask for: a list of codes each, and for the year the first and the last.
 CONDITIONS = ("kind", "type", "state", "record", "built")
 #: The columns of what the inventory holds, beside the table of piers. Traffic is that of the route
-#: of the record, which by its type goes over or under the bridge.
+#: of the record: under the bridge, whose trucks can strike its piers, where there is such a record.
 HELD = (
-    *("id", "latitude [°]", "longitude [°]", "record", "built", "lanes_under"),
+    *("id", "latitude [°]", "longitude [°]", "record", "route", "built", "lanes_under"),
     *("traffic [1/day]", "trucks [1/day]", "vertical_clearance [m]"),
     *("right_clearance [m]", "left_clearance [m]"),
 )
 _DIGITS = {"latitude": 8, "longitude": 9}
+#: The code of a record whose route goes over the bridge; all others go under it.
+OVER = "1"
+_MOST_DEGREES = {"latitude": 90.0, "longitude": 180.0}  # exactly
 # Whether cells are quoted by apostrophes is told from so many characters: this project's choice.
 _QUOTED, _SAMPLE = re.compile(r"(?:^|,)'[^'\n]*'(?=[,\r\n])", re.MULTILINE), 1_000_000
 
@@ -99,6 +102,7 @@ class Piers:
     held: bytes  #: CSV of what the inventory holds, by the same ids
     count: int
     left_out: Counter[str] = field(default_factory=Counter)  #: bridges by reason
+    blank: Counter[str] = field(default_factory=Counter)  #: coordinates left blank, by reason
 
 
 def read_rules(path: Path) -> Rules:
@@ -184,6 +188,9 @@ def _code(text: str) -> str:
 def piers_of(path: Path, rules: Rules) -> Piers:
     """Return the piers of an inventory file: one for each bridge with lanes under it.
 
+    Of a bridge with several records it is of the first whose route goes under it, or else of the
+    first. Coordinates that cannot be read are left blank.
+
     Raises
     ------
     InputError
@@ -195,35 +202,56 @@ def piers_of(path: Path, rules: Rules) -> Piers:
     to_piers.writerow(["id", "latitude", "longitude", *keys])
     to_held.writerow(HELD)
     left_out: Counter[str] = Counter()
-    seen: set[str] = set()
+    blank: Counter[str] = Counter()
+    rows: dict[str, _Bridge] = {}
     try:
         for bridge in _bridges(path, rules.fields, left_out):
+            name = f"{_code(bridge['state'])}-{bridge['structure']}"
             try:
-                name = f"{_code(bridge['state'])}-{bridge['structure']}"
                 values = _values(bridge, rules)
-                place = [_degrees(bridge, which) for which in _DIGITS]
-                if name in seen:
-                    raise InputError("another route of a bridge that has a row already")
             except InputError as error:
                 left_out[str(error)] += 1
                 continue
-            seen.add(name)
-            if place[1] is not None and _code(bridge["state"]) not in rules.east:
-                place[1] = -place[1]
-            degrees = ["" if x is None else f"{x:.6f}" for x in place]
-            cells = [no_formula(values.get(key, "")) for key in keys]
-            to_piers.writerow([no_formula(name), *degrees, *cells])
-            to_held.writerow([no_formula(name), *degrees, *_held(bridge)])
+            if name in rows:
+                left_out["another route of a bridge that has a row already"] += 1
+                if is_under(bridge) <= is_under(rows[name].items):
+                    continue
+            rows[name] = _Bridge(bridge, values)
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
+    for name, (items, given) in rows.items():
+        degrees = []
+        for which in _DIGITS:
+            try:
+                degrees.append(_degrees(items, which, rules))
+            except InputError as error:
+                blank[str(error)] += 1
+                degrees.append(None)
+        place = ["", ""] if None in degrees else [f"{x:.6f}" for x in degrees]
+        cells = [no_formula(given.get(key, "")) for key in keys]
+        to_piers.writerow([no_formula(name), *place, *cells])
+        to_held.writerow([no_formula(name), *place, *_held(items)])
     return Piers(
         piers=piers.getvalue().encode(),
         held=held.getvalue().encode(),
-        count=len(seen),
+        count=len(rows),
         left_out=left_out,
+        blank=blank,
     )
+
+
+class _Bridge(NamedTuple):
+    """A record of a bridge, and the keys of its pier."""
+
+    items: Mapping[str, str]
+    values: Mapping[str, str]
+
+
+def is_under(bridge: Mapping[str, str]) -> bool:
+    """Return whether the route of a record goes under the bridge."""
+    return bridge["record"] != OVER
 
 
 def _bridges(
@@ -284,16 +312,24 @@ def _is_whole(text: str) -> bool:
     return text.isascii() and text.isdecimal()
 
 
-def _degrees(bridge: Mapping[str, str], which: str) -> float | None:
-    """Return a coordinate [°]; None where it is blank or zero."""
+def _degrees(bridge: Mapping[str, str], which: str, rules: Rules) -> float | None:
+    """Return a coordinate [°]; None where it is blank or zero.
+
+    Zeros before it may be lost, but none of a degree.
+    """
     text, digits = bridge[which], _DIGITS[which]
     if not text.strip("0 "):
         return None
-    text = text.zfill(digits)
     minutes, seconds = text[-6:-4], text[-4:]
-    if not (_is_whole(text) and len(text) == digits and int(minutes) < 60 and int(seconds) < 6000):
+    if not (
+        _is_whole(text) and 7 <= len(text) <= digits and int(minutes) < 60 and int(seconds) < 6000
+    ):
         raise InputError(f"{which} is not degrees, minutes, seconds and hundredths")
-    return int(text[:-6]) + int(minutes) / 60 + int(seconds) / 360_000
+    degrees = int(text[:-6]) + int(minutes) / 60 + int(seconds) / 360_000
+    if degrees > _MOST_DEGREES[which]:
+        raise InputError(f"{which} is more than {_MOST_DEGREES[which]:g}°")
+    west = which == "longitude" and _code(bridge["state"]) not in rules.east
+    return -degrees if west else degrees
 
 
 def _held(bridge: Mapping[str, str]) -> Iterable[str]:
@@ -303,7 +339,9 @@ def _held(bridge: Mapping[str, str]) -> Iterable[str]:
     except InputError:  # one of them is not given
         trucks = ""
     return (
-        *(bridge[name] for name in ("record", "built", "lanes_under", "traffic")),
+        bridge["record"],
+        "under" if is_under(bridge) else "over",
+        *(bridge[name] for name in ("built", "lanes_under", "traffic")),
         trucks,
         *(bridge[f"{side}_clearance"] for side in ("vertical", "right", "left")),
     )
