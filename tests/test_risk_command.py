@@ -141,6 +141,7 @@ BAD = {
     "lognorm(s=0.5, scale=18 km/h)": "scale must be a mass",
     "lognorm(s=half, scale=18 t)": "s must be a number, got 'half'",
     "lognorm(s=-1, scale=18 t)": "has parameters that lognorm does not take",
+    "cauchy(loc=18 t, scale=3 t) from 3.5 t to 60 t": "must have a mean, which cauchy has not",
     "lognormal(mean=18 t, sd=1e-200 t)": "sd must not vanish beside mean",
     "lognormal(mean=1e-200 t, sd=1e200 t)": "gives impossible values",
     "lognorm(s=1, skale=18 t, scale=1 t)": "'skale' is no parameter of lognorm; did you mean",

@@ -119,10 +119,12 @@ def _of_scipy(name: str, law: str, given: Mapping[str, str], dimension: str) -> 
     if not values["scale"] > 0.0:
         raise InputError(f"{name}: scale must be positive, got {brief(given['scale'])}")
     frozen = found(**values)
-    if any(math.isnan(float(x)) for x in (frozen.mean(), frozen.cdf(0.0), frozen.cdf(1.0))):
+    if any(math.isnan(float(x)) for x in (frozen.cdf(0.0), frozen.cdf(1.0))):
         raise InputError(
             f"{name} has parameters that {law} does not take, got {brief(dict(given))}"
         )
+    if math.isnan(float(frozen.mean())):
+        raise InputError(f"{name} must have a mean, which {law} has not, got {brief(dict(given))}")
     return frozen
 
 
