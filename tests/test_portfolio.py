@@ -213,6 +213,86 @@ def test_bad_rows_stop_nothing_and_say_why(tmp_path, here):
     assert "7 of 12 rows have no results" in page
 
 
+def test_what_check_warns_of_has_a_column_and_is_counted_on_the_page(tmp_path, here):
+    path = tmp_path / "piers.csv"
+    rows = (
+        "A,,,circular,36,,,5,25,2400,fixed,pinned,,single-unit-8t,8,500,1.2 m,2.5,4 MN*m,static\n"
+        "B,,,circular,36,,,5,25,2400,fixed,pinned,,single-unit-8t,30,80,1.2 m,,40 MN*m,static\n"
+        "C,,,circular,36,,,5,25,2400,fixed,pinned,,own.toml,8,80,1.2 m,99,99 MN*m,static\n"
+    )
+    truck = (shipped("trucks") / "single-unit-8t.toml").read_text("utf-8")
+    own = truck.replace('status = "illustrative"', 'status = "measured"')
+    (tmp_path / "own.toml").write_text(own.replace("single-unit-8t", "own"), "utf-8")
+    path.write_text(f"{HEADING}\n{rows}")
+    table = read_pier_table(path)
+    found = calculate_portfolio(table, tmp_path)
+    said = dict(zip(found.words["id"], found.words["warnings"], strict=True))
+    illustrative = "truck illustrative"
+    assert said["A"] == f"unusual speed; {illustrative}"
+    assert said["B"] == f"truck_mass beyond what the truck’s springs stand for; {illustrative}"
+    page = html.unescape(written(found, table, tmp_path)["summary.html"].decode())
+    assert "1 rows have unusual values" not in page
+    assert "1 row has unusual values" in page
+    assert "The trucks of 2 rows are illustrative: single-unit-8t." in page
+    assert "The truck of 1 row is heavier or lighter than the springs of its truck" in page
+    assert "1 of the others gives one resistance" in page
+
+
+def test_a_portfolio_of_rejected_rows_says_so(tmp_path, here):
+    path = tmp_path / "piers.csv"
+    path.write_text(f"{HEADING}\n{BAD.splitlines()[0]}\n")
+    table = read_pier_table(path)
+    page = written(calculate_portfolio(table, tmp_path), table, tmp_path)["summary.html"].decode()
+    assert "No pier has results" in page
+    assert "no row gives a resistance" not in page
+
+
+def test_keys_of_the_traffic_are_read_as_in_a_case_file(tmp_path, here):
+    path = tmp_path / "piers.csv"
+    laws = {
+        "traffic_mass": "lognorm(s=0.5, scale=18 t)",
+        "traffic_speed": "urban",
+        "traffic_deceleration": "lognormal(mean=4 m/s^2, sd=1.3 m/s^2)",
+        "traffic_angle": "rayleigh(scale=8 deg)",
+    }
+    cells = ",".join(f'"{law}"' for law in laws.values())
+    row = f"{ROWS.splitlines()[0]},{cells}"
+    path.write_text(f"{HEADING},{','.join(laws)}\n{row}\n")
+    table = read_pier_table(path)
+    assert not calculate_portfolio(table, tmp_path, beams="asked").rejects
+
+
+@pytest.mark.parametrize("content", ["{}", "[]", "[1, 2, 3]", "null", '["", {}]', ""])
+def test_a_kept_piece_that_is_none_is_calculated_again(table, tmp_path, here, content):
+    expected = written(calculate_portfolio(table, tmp_path, beams="asked"), table, tmp_path)
+    here.clear()
+    for piece in (tmp_path / "pieces").glob("*.json"):
+        piece.write_text(content)
+    assert written(calculate_portfolio(table, tmp_path, beams="asked"), table, tmp_path) == expected
+    assert here == [5]
+
+
+def test_after_a_change_of_one_row_the_other_pieces_stand(table, tmp_path, here, monkeypatch):
+    monkeypatch.setattr(portfolio_module, "ROWS", 2)
+    calculate_portfolio(table, tmp_path)
+    kept = {path.name for path in (tmp_path / "pieces").iterdir()}
+    here.clear()
+    table.path.write_text(
+        table.path.read_text().replace("tractor-trailer-36t,,50", "tractor-trailer-36t,,51")
+    )
+    changed = read_pier_table(table.path)
+    found = calculate_portfolio(changed, tmp_path)
+    assert here[0] == 2
+    assert sum(here) <= 4
+    again = calculate_portfolio(changed, tmp_path / "again")
+    for name, values in again.numbers.items():
+        np.testing.assert_array_equal(found.numbers[name], values)
+    # Those of what is no more are gone.
+    now = {path.name for path in (tmp_path / "pieces").iterdir()}
+    assert len(now) == len({path.name for path in (tmp_path / "again" / "pieces").iterdir()})
+    assert now & kept
+
+
 def test_interrupted_it_goes_on_and_comes_to_the_same_bytes(table, tmp_path, here, monkeypatch):
     pyarrow = pytest.importorskip("pyarrow.parquet")
     monkeypatch.setattr(portfolio_module, "ROWS", 2)
@@ -233,11 +313,11 @@ def test_interrupted_it_goes_on_and_comes_to_the_same_bytes(table, tmp_path, her
     here.clear()
     assert written(calculate_portfolio(table, folder, beams="asked"), table, folder) == expected
     assert here == [2, 1]
-    # Another table in the same folder is another matter.
+    # Of another table in the same folder what differs is calculated.
     table.path.write_text(table.path.read_text().replace(",80,", ",81,"))
     here.clear()
     changed = calculate_portfolio(read_pier_table(table.path), folder, beams="asked")
-    assert here == [2, 2, 1]
+    assert here == [2]
     assert written(changed, table, folder)["results.csv"] != expected["results.csv"]
     # The other format has the same rows, and comes to the same.
     import pyarrow as pa
@@ -286,6 +366,8 @@ def test_on_a_cluster_of_which_a_worker_is_killed_it_comes_to_the_same_bytes(
         ("speed [km/h]", "speed [kg]", r"speed must be a speed .*which is a mass"),
         ("speed [km/h]", "top", "the column top is there twice"),
         ("truck,", "element,", "the column truck is missing"),
+        ("base,top,", "", "the columns base, top are missing"),
+        ("member_forces", "traffic_trucks", "'traffic_trucks' is no column of piers"),
         ("latitude,", "element,", "latitude and longitude belong together"),
         ("P4", "P1", "id 'P1' is given twice, in rows 2 and 5"),
         ("P1", '"P1', "not valid CSV|quotation mark"),

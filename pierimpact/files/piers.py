@@ -26,7 +26,7 @@ from pierimpact.files.csv_lines import (
     with_point,
     with_unit,
 )
-from pierimpact.files.inputs import Inputs, is_auto
+from pierimpact.files.inputs import Inputs, Text, is_auto
 from pierimpact.files.keys import quantity_of
 from pierimpact.files.reading import require_regular
 from pierimpact.symbols import BY_KEY
@@ -37,7 +37,7 @@ PLACE = {"latitude": 90.0, "longitude": 180.0}  # exactly
 #: Keys of a case file that are no cell: lists, and what belongs to one sheet.
 _NOT_IN_TABLES = (
     *("office", "logo", "units", "steps", "assumed", "sources", "notes", "revisions"),
-    *("supersedes", "annexes"),
+    *("supersedes", "annexes", "traffic_trucks"),
 )
 KEYS = tuple(key for key in Inputs.model_fields if key not in _NOT_IN_TABLES)
 #: The columns that a table may have, and those that it must have.
@@ -52,6 +52,7 @@ PLAIN = (
         if key in BY_KEY
         and not quantity_of(key)
         and get_origin(Inputs.model_fields[key].annotation) is not Literal
+        and Inputs.model_fields[key].annotation != Text | None
     ),
 )
 
@@ -221,9 +222,12 @@ def _columns(heading: Iterable[str]) -> tuple[Column, ...]:
             raise InputError(f"the column {key} is there twice")
         columns.append(column)
     keys = [column.key for column in columns]
-    for key in REQUIRED:
-        if key not in keys:
-            raise InputError(f"the column {key} is missing")
+    missing = [key for key in REQUIRED if key not in keys]
+    if missing:
+        several = len(missing) > 1
+        raise InputError(
+            f"the column{'s' * several} {', '.join(missing)} {'are' if several else 'is'} missing"
+        )
     if ("latitude" in keys) != ("longitude" in keys):
         raise InputError("latitude and longitude belong together, one of them is missing")
     return tuple(columns)

@@ -22,7 +22,16 @@ from pierimpact.units import rounded, unit_of, unit_size
 LISTED = 100_000
 #: Columns that it lists, in order; the others are in the files.
 SHOWN = (
-    *("rank", "id", "utilisation", "utilisation_high", "design_reaction", "band_low", "band_high"),
+    *(
+        "rank",
+        "id",
+        "warnings",
+        "utilisation",
+        "utilisation_high",
+        "design_reaction",
+        "band_low",
+        "band_high",
+    ),
     *("code_ratio", "largest_shear", "shear_method", "utilisation_shear"),
     *("largest_moment", "moment_method", "utilisation_moment", "truck", "truck_mass", "speed"),
     *("pier_frequency", "average_25ms", "latitude", "longitude"),
@@ -121,6 +130,8 @@ def _picture(svg: str) -> str:
 
 def _statement(portfolio: Portfolio) -> str:
     utilisation = portfolio.numbers["utilisation"]
+    if not len(utilisation):
+        return f"No pier has results: all {portfolio.size:,} rows were rejected, by rejects.csv."
     rated = int(np.count_nonzero(np.isfinite(utilisation)))
     # Exactly: a utilisation above one is a resistance exceeded.
     exceeded = int(np.count_nonzero(utilisation > 1.0))
@@ -133,15 +144,42 @@ def _remarks(portfolio: Portfolio) -> Iterator[str]:
     numbers, words = portfolio.numbers, portfolio.words
     count, utilisation = len(numbers["rank"]), numbers["utilisation"]
     # Exactly, as above.
+    both = np.isfinite(numbers["utilisation_shear"]) & np.isfinite(numbers["utilisation_moment"])
+    in_part = int(np.count_nonzero((utilisation <= 1.0) & ~both))
+    if in_part:
+        yield (
+            f"{in_part:,} of the others {'gives' if in_part == 1 else 'give'} one resistance, to "
+            "shear or to moment: that holds, and the other effect is not checked."
+        )
     at_upper = int(np.count_nonzero((utilisation <= 1.0) & (numbers["utilisation_high"] > 1.0)))
     if at_upper:
         yield (
-            f"{at_upper:,} more hold it, but not every truck of its spread: their utilisation "
+            f"{at_upper:,} of the others do not hold every truck of the spread: their utilisation "
             "exceeds 1 at the upper end of the band."
         )
     unrated = int(np.count_nonzero(np.isnan(utilisation)))
     if unrated and unrated < count:
         yield f"{unrated:,} rows give no resistance; they rank last, by reaction."
+    unusual = int(np.count_nonzero(words["unusual"] != ""))
+    if unusual:
+        yield (
+            f"{_rows(unusual)} {'has' if unusual == 1 else 'have'} unusual values, a slip of a "
+            "unit most likely: the warnings name the columns."
+        )
+    beyond = int(np.count_nonzero(numbers["in_mass_range"] == 0.0))
+    if beyond:
+        yield (
+            f"The truck of {_rows(beyond)} is heavier or lighter than the springs of its truck "
+            "stand for."
+        )
+    for status in sorted(set(portfolio.statuses.values())):
+        names = [name for name, own in portfolio.statuses.items() if own == status]
+        of_rows = int(np.count_nonzero(np.isin(words["truck"], names)))
+        if of_rows:
+            yield (
+                f"The trucks of {_rows(of_rows)} are {status}: {', '.join(sorted(names))}. Results "
+                "are no better than their parameters."
+            )
     beams = int(np.count_nonzero(np.isfinite(numbers["beam_shear"])))
     low = int(np.count_nonzero(words["static_forces"] != "hold"))
     if low:
@@ -161,6 +199,10 @@ def _remarks(portfolio: Portfolio) -> Iterator[str]:
             "were within 6 % of these, 98 of 100 within 10 %, and all within 21 %; the farthest "
             "were of slow trucks."
         )
+
+
+def _rows(count: int) -> str:
+    return f"{count:,} row{'s' * (count != 1)}"
 
 
 def _quantiles(

@@ -28,6 +28,7 @@ from pierimpact.files.case import column_of, impact_heights, loaded
 from pierimpact.files.csv_lines import Row
 from pierimpact.files.inputs import Inputs, read_inputs
 from pierimpact.files.piers import COLUMNS, Column, Pier, pier_of
+from pierimpact.files.plausible import unusual
 from pierimpact.pier.column import StruckColumn
 from pierimpact.report.calculation import AVERAGE
 from pierimpact.vehicle.truck import Truck
@@ -35,7 +36,7 @@ from pierimpact.vehicle.truck import Truck
 Array: TypeAlias = NDArray[np.float64]
 
 #: What is kept of a row: words, and numbers in SI units; nan where there is none.
-WORDS = ("id", "truck", "governs", "asked")
+WORDS = ("id", "truck", "governs", "asked", "unusual")
 NUMBERS = (
     *("row", "latitude", "longitude", "truck_mass", "speed"),
     *("impact_height", "pier_frequency", "pier_mass", "pier_stiffness"),
@@ -46,6 +47,7 @@ NUMBERS = (
     *("safe_shear", "safe_moment", "static_holds"),
     *("high_shear", "high_moment"),  # static ones that 95 % of the trucks stay below
     *("shear_resistance", "moment_resistance"),
+    "in_mass_range",  # whether the truck's springs stand for its mass
 )
 
 
@@ -139,6 +141,7 @@ def calculate_piece(task: Task) -> Found:
         words["truck"].append(own.truck.name)
         words["governs"].append("cargo" if cargo_governs else "engine")
         words["asked"].append(str(own.pier.values.get("member_forces", "")))
+        words["unusual"].append(", ".join(found.key for found in unusual(own.inputs)))
     return Found(words, numbers, rejects)
 
 
@@ -290,4 +293,5 @@ def _numbers(own: _Read, impacts: _Impacts, mine: range) -> dict[str, float]:
         "high_moment": float(quantiles(sampled[1])[-1]),
         "shear_resistance": inputs.shear_resistance or math.nan,
         "moment_resistance": inputs.moment_resistance or math.nan,
+        "in_mass_range": own.truck.in_mass_range,
     }

@@ -1,8 +1,8 @@
 """Portfolios: every pier of a table by the full model, in pieces that survive an interruption.
 
-What a piece comes to is kept in the folder `pieces` beside the results, under a digest of the table
-and of all that its results depend on. A run that finds pieces of its own digest goes on from them;
-those of another it removes. No result depends on the pieces that were done together.
+What a piece comes to is kept in the folder `pieces` beside the results, under a digest of its rows
+and of all that its results depend on. A run that finds such pieces goes on from them, and removes
+the others in the end. No result depends on the pieces that were done together.
 """
 
 import hashlib
@@ -21,7 +21,7 @@ import pierimpact
 from pierimpact.checks import InputError, one_of
 from pierimpact.files.csv_lines import Row
 from pierimpact.files.piers import PierTable
-from pierimpact.files.trucks import read_truck_file
+from pierimpact.files.trucks import TruckFile, read_truck_file
 from pierimpact.files.write import write_files
 from pierimpact.network.piece import (
     NUMBERS,
@@ -48,7 +48,6 @@ BEAMS = ("rule", "asked")
 #: What the member forces of a row are by.
 BEAM, STATIC, CONTACT = "beam", "static reaction", "static contact force"
 PIECES = "pieces"  # the folder
-_MANIFEST = "manifest.json"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,6 +62,7 @@ class Portfolio:
     words: Mapping[str, NDArray[np.str_]]
     numbers: Mapping[str, Array]  #: in SI units; nan where there is none
     rejects: Sequence[Reject]  #: by row
+    statuses: Mapping[str, str]  #: of the trucks that nobody verified, in words by their names
 
 
 def calculate_portfolio(
@@ -99,8 +99,9 @@ def calculate_portfolio(
         As in `pierimpact.network.workers.Run`.
     """
     one_of("beams", beams, BEAMS)
-    trucks = {name: _truck(name, table.path.parent) for name in table.trucks}
-    kept = _Kept(folder / PIECES, _digest(table, trucks))
+    files = {name: _truck_file(name, table.path.parent) for name in table.trucks}
+    trucks = {name: file if isinstance(file, str) else file.truck for name, file in files.items()}
+    kept = _Kept(folder / PIECES)
     with worker_pool(workers=workers, scheduler=scheduler, say=say) as run:
         kept.open()
         work = _Work(table, trucks, kept, run)
@@ -120,60 +121,58 @@ def calculate_portfolio(
             by_beam = work.beams(wanted, progress("beams", len(wanted)))
             forces = by_beam.forces
             found.rejects.extend(by_beam.rejects)
-    return _portfolio(table, found, forces)
+    kept.remove_others()
+    statuses = {
+        file.truck.name: file.status.words
+        for file in files.values()
+        if not isinstance(file, str) and not file.status.verified
+    }
+    return _portfolio(table, found, forces, statuses)
 
 
-def _truck(name: str, folder: Path) -> Truck | str:
-    """Return a truck, or what is wrong with it in one line."""
+def _truck_file(name: str, folder: Path) -> TruckFile | str:
+    """Return the file of a truck, or what is wrong with it in one line."""
     try:
-        return read_truck_file(name, folder).truck
+        return read_truck_file(name, folder)
     except InputError as error:
         return f"truck: {error}" if not str(error).startswith("truck ") else str(error)
-
-
-def _digest(table: PierTable, trucks: Mapping[str, Truck | str]) -> str:
-    """Return a digest of all that the results depend on."""
-    kept = ROWS, BEAM_ROWS, WORDS, NUMBERS, BeamForces._fields
-    versions = pierimpact.__version__, np.__version__, kept
-    spreads = [own.spread for own in trucks.values() if isinstance(own, Truck)]
-    parts = table.sha256, versions, sorted(trucks.items(), key=lambda own: own[0]), spreads
-    return hashlib.sha256(repr(parts).encode()).hexdigest()
 
 
 class _Kept:
     """Finished pieces in a folder."""
 
-    def __init__(self, folder: Path, digest: str) -> None:
-        self._folder, self._digest = folder, digest
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._asked: set[str] = set()
 
     def open(self) -> None:
-        """Make the folder ready; remove the pieces of another table or of other settings."""
-        manifest = self._folder / _MANIFEST
+        """Make the folder ready."""
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
-            if manifest.exists() and _read_json(manifest) == self._digest:
-                return
-            for old in self._folder.glob("*.json"):
-                old.unlink()
         except OSError as error:
             raise InputError(f"{self._folder} cannot be written to: {error.strerror}") from None
-        self.keep(_MANIFEST, self._digest)
 
     def keep(self, name: str, found: object) -> None:
         """Keep something under a name."""
-        text = json.dumps(found, ensure_ascii=False)
-        write_files({self._folder / name: text.encode("utf-8", "surrogateescape")})
+        text = json.dumps(found, ensure_ascii=False).encode("utf-8", "surrogateescape")
+        digest = hashlib.sha256(text).hexdigest().encode()
+        write_files({self._folder / name: digest + b"\n" + text})
 
     def found(self, name: str) -> Any:
         """Return what is kept under a name; None where nothing whole is."""
-        return _read_json(self._folder / name)
+        self._asked.add(name)
+        try:
+            digest, _, text = (self._folder / name).read_bytes().partition(b"\n")
+        except OSError:
+            return None
+        whole = digest == hashlib.sha256(text).hexdigest().encode()
+        return json.loads(text.decode("utf-8", "surrogateescape")) if whole else None
 
-
-def _read_json(path: Path) -> Any:
-    try:
-        return json.loads(path.read_bytes())
-    except (OSError, ValueError):
-        return None
+    def remove_others(self) -> None:
+        """Remove what was not asked for."""
+        for old in self._folder.glob("*.json"):
+            if old.name not in self._asked:
+                old.unlink(missing_ok=True)
 
 
 class _Work(NamedTuple):
@@ -218,13 +217,13 @@ class _Work(NamedTuple):
 
         def tasks() -> Iterator[Task]:
             for rows in pieces:
-                # The rows are in the name, so that those of another choice are not taken for it.
-                names.append(f"{kind}-{_name_of(rows)}.json")
+                task = Task(self.table.columns, rows, self.trucks)
+                names.append(f"{kind}-{rows[0].number}-{_digest(task)}.json")
                 if self.kept.found(names[-1]) is not None:
                     progress(len(rows))
                     continue
                 waiting.append((names[-1], len(rows)))
-                yield Task(self.table.columns, rows, self.trucks)
+                yield task
 
         for result in self.run(function, tasks()):
             name, size = waiting.popleft()
@@ -234,12 +233,18 @@ class _Work(NamedTuple):
             yield self.kept.found(name)
 
 
-def _name_of(rows: Sequence[Row]) -> str:
-    """Return what tells some rows of a table from any others."""
-    numbers = [row.number for row in rows]
-    if numbers[-1] - numbers[0] == len(numbers) - 1:
-        return f"{numbers[0]}-{numbers[-1]}"
-    return f"{numbers[0]}-{hashlib.sha256(repr(numbers).encode()).hexdigest()[:16]}"
+def _digest(task: Task) -> str:
+    """Return a digest of all that the results of some rows depend on."""
+    kept = WORDS, NUMBERS, BeamForces._fields
+    place = [column.key for column in task.columns].index("truck")
+    named = sorted({row.cells[place].strip() for row in task.rows if place < len(row.cells)})
+    trucks = [
+        (name, truck, isinstance(truck, Truck) and (truck.spread, truck.mass_range))
+        for name, truck in task.trucks.items()
+        if name in named
+    ]
+    parts = pierimpact.__version__, np.__version__, kept, task.columns, task.rows, trucks
+    return hashlib.sha256(repr(parts).encode("utf-8", "surrogatepass")).hexdigest()[:32]
 
 
 def _chosen(table: PierTable, wanted: set[int]) -> Iterator[list[Row]]:
@@ -252,11 +257,18 @@ def _chosen(table: PierTable, wanted: set[int]) -> Iterator[list[Row]]:
                 if len(chosen) == BEAM_ROWS:
                     yield chosen
                     chosen = []
-    if chosen:
-        yield chosen
+        # No piece goes on in another, so that what one has of them leaves the others as they are.
+        if chosen:
+            yield chosen
+            chosen = []
 
 
-def _portfolio(table: PierTable, found: Found, forces: Iterable[BeamForces]) -> Portfolio:
+def _portfolio(
+    table: PierTable,
+    found: Found,
+    forces: Iterable[BeamForces],
+    statuses: Mapping[str, str],
+) -> Portfolio:
     """Return the portfolio of what was found: member forces that govern, utilisations, ranks."""
     numbers = {name: np.array(found.numbers.pop(name), dtype=float) for name in NUMBERS}
     words = {name: np.array(found.words.pop(name), dtype=str) for name in WORDS}
@@ -282,6 +294,7 @@ def _portfolio(table: PierTable, found: Found, forces: Iterable[BeamForces]) -> 
         # The contact force of the trucks at the upper end is taken to grow as their reaction.
         without = numbers.pop(f"high_{which}") * np.where(careful, safe / static, 1.0)
         high[which] = np.where(known, high_by_beam, without) / resistance
+    words["warnings"] = _warnings(words, numbers["in_mass_range"] > 0.0, statuses)
     numbers["utilisation"] = np.fmax(numbers["utilisation_shear"], numbers["utilisation_moment"])
     numbers["utilisation_high"] = np.fmax(high["shear"], high["moment"])
     lost = {reject.row for reject in found.rejects}
@@ -302,4 +315,18 @@ def _portfolio(table: PierTable, found: Found, forces: Iterable[BeamForces]) -> 
         words={name: values[worst] for name, values in words.items()},
         numbers=numbers,
         rejects=sorted(found.rejects),
+        statuses=statuses,
     )
+
+
+def _warnings(
+    words: Mapping[str, NDArray[np.str_]], in_range: NDArray[np.bool_], statuses: Mapping[str, str]
+) -> NDArray[np.str_]:
+    """Return what to know of each row before relying on it, in a few words."""
+    rows = []
+    for unusual, stands, truck in zip(words["unusual"], in_range, words["truck"], strict=True):
+        said = [f"unusual {unusual}"] * bool(unusual)
+        said += ["truck_mass beyond what the truck’s springs stand for"] * (not stands)
+        said += [f"truck {statuses[truck]}"] * (truck in statuses)
+        rows.append("; ".join(said))
+    return np.array(rows, dtype=str)

@@ -65,6 +65,7 @@ class ResultColumn(NamedTuple):
 RESULTS = (
     ResultColumn("rank", _COUNT, "1 is the worst: by utilisation, then by reaction"),
     ResultColumn("id", _WORD, "of the pier"),
+    ResultColumn("warnings", _WORD, "what to know of it; its sheet has them in full"),
     ResultColumn("row", _COUNT, "of the table of piers, its heading being row 1"),
     ResultColumn("latitude", _DEGREES, "of the pier"),
     ResultColumn("longitude", _DEGREES, "of the pier"),
