@@ -447,7 +447,7 @@ def stated(value: float, quantity: str, system: str, digits: int = 3) -> str:
 
 
 def placed(height: float, system: str) -> Printed:
-    """Return a place along a column [m]: as it was given in `system`, or to two decimals."""
+    """Return a place along a column [m]: to four figures if it has no more, or to two decimals."""
     number, unit = printed(height, "length", system, given=True)
     own = height / unit_size("length", system)
     if not _has_only(own, 4):

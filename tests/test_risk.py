@@ -438,3 +438,20 @@ def test_a_block_alone_is_that_of_all():
     last = strikes_of(pickle.loads(pickle.dumps(task)), 1)  # as another process does
     for part, every in zip(last, whole, strict=True):
         np.testing.assert_array_equal(part, every[BLOCK:])
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_nothing_is_exceeded_more_often_than_there_are_events(seed):
+    random = np.random.default_rng(seed)
+    values, weights = random.lognormal(size=300), random.gamma(0.5, size=300)
+    better = values[:60] * random.lognormal(0.5, 0.6, 60)
+    found = Exceedance(values, weights, 2.0, better)
+    total = 2.0 * weights.sum() / 300
+    at = np.concatenate(([-1.0, 0.0], np.sort(np.concatenate((values, better)))))
+    assert np.all(found.rate(at).value <= total * (1.0 + 1e-12))
+    # The value that is exceeded as often as it is exceeded is itself, whatever sums round to.
+    first = Exceedance(values, weights, 2.0)
+    backwards = Exceedance(values[::-1], weights[::-1], 2.0)
+    for value in np.sort(values)[[0, 1, 100, -1]]:
+        there = float(first.rate(value * (1.0 - 1e-9)).value)
+        assert backwards.value(there).value == value

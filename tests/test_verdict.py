@@ -11,7 +11,9 @@ from test_arranged_sheet import number
 
 from pierimpact import EquivalentPier, InputError, load_truck, reaction_band, simulate
 from pierimpact.files.case import case_from
+from pierimpact.report.check import check_text
 from pierimpact.report.outcome import first_results, statement
+from pierimpact.report.results import Results
 from pierimpact.report.sheet import Sheet
 from pierimpact.report.warnings import warnings_beside_verdict
 from pierimpact.resources import shipped
@@ -125,12 +127,31 @@ def test_what_holds_the_truck_and_not_the_force_of_the_code_is_warned_of(resista
 
 def test_one_resistance_for_parts_that_differ_is_said_to_be_so():
     sheet = Sheet(case_from(STEPPED))
-    assert "of one resistance for all parts" in statement(sheet.calculation)
+    assert ", of one resistance for parts that differ" in statement(sheet.calculation)
     first, *_ = warnings_beside_verdict(sheet.calculation)
-    assert "One shear and one moment resistance is held against all parts" in first
+    assert "held against the same shear and moment resistance" in first
+    half = Sheet(case_from(with_step(moment_resistance="14 MN*m")))
+    assert ", in shear of one resistance for parts that differ" in statement(half.calculation)
     same = Sheet(case_from(STEPPED | {"steps": [STEPPED["steps"][0] | {"column_diameter": "2 m"}]}))
-    assert "for all parts" not in statement(same.calculation)
-    assert "One shear" not in " ".join(warnings_beside_verdict(same.calculation))
+    assert "parts that differ" not in statement(same.calculation)
+    assert "the same shear" not in " ".join(warnings_beside_verdict(same.calculation))
+
+
+@pytest.mark.parametrize("top", ["pinned", "free"])
+def test_at_a_step_that_is_struck_each_part_has_its_own_side_of_the_impact(top):
+    """As where the step is a little above or below it."""
+
+    def forces(height):
+        case = STEPPED | {"top": top, "steps": [STEPPED["steps"][0] | {"height": height}]}
+        result = Sheet(case_from(case)).calculation
+        return [result.demands_of(part)["shear"] for part in result.case.parts]
+
+    below, above = forces("1.2 m")
+    (_, just_above), (just_below, _) = forces("1.205 m"), forces("1.195 m")
+    assert above.beam == pytest.approx(just_above.beam, rel=0.05)
+    assert below.beam == pytest.approx(just_below.beam, rel=0.05)
+    assert above.beam < 0.7 * below.beam
+    assert above.static == pytest.approx(just_above.static, rel=0.05, abs=1.0)
 
 
 @settings(max_examples=10)
@@ -240,12 +261,12 @@ def test_a_step_has_resistances_of_its_own(impact_height):
             for part, limit in zip(result.case.parts, (below, above), strict=True)
         ]
         assert result.utilisations[name] == pytest.approx(max(ratios), rel=1e-12)
-        assert result.checks[name].part == result.case.parts[int(np.argmax(ratios))]
-    assert "for all parts" not in statement(result)
-    assert "held against all parts" not in " ".join(warnings_beside_verdict(result))
+        assert result.uses[name].part == result.case.parts[int(np.argmax(ratios))]
+    assert "parts that differ" not in statement(result)
+    assert "held against the same" not in " ".join(warnings_beside_verdict(result))
     rows = {row[0]: row for row in sheet.first_page.utilisations().rows}
     for name, unit in (("Shear", "kN"), ("Moment", "kN·m")):
-        check = result.checks[name.lower()]
+        check = result.uses[name.lower()]
         row = rows[f"{name} [{unit}]"]
         assert row[3].endswith(f", {check.part.low:g} to {check.part.high:g} m")
         assert number(row[4]) == pytest.approx(1e-3 * check.resistance)
@@ -262,7 +283,7 @@ def test_a_step_that_resists_the_same_changes_nothing():
     two = Sheet(case_from(same)).calculation
     assert two.utilisations == one.utilisations
     assert two.upper_utilisations == one.upper_utilisations
-    assert "held against" in " ".join(warnings_beside_verdict(two))
+    assert "held against" not in " ".join(warnings_beside_verdict(two))
 
 
 def test_what_95_percent_stay_below_is_of_the_part_that_each_truck_uses_most():
@@ -278,7 +299,7 @@ def test_what_95_percent_stay_below_is_of_the_part_that_each_truck_uses_most():
     assert upper["moment"] > result.utilisations["moment"]
     stronger = with_step(shear_resistance="2.2 MN", moment_resistance="1.6 MN*m") | strong
     half = Sheet(case_from(stronger)).calculation
-    assert half.checks["moment"].part == half.case.parts[1]
+    assert half.uses["moment"].part == half.case.parts[1]
     assert half.upper_utilisations["moment"] == pytest.approx(0.5 * upper["moment"], rel=1e-9)
 
 
@@ -314,3 +335,43 @@ def test_a_bad_resistance_of_a_step_is_one_line(case, message):
         case_from(case)
     assert message in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def test_inputs_and_results_have_what_each_part_resists():
+    sheet = Sheet(case_from(with_step(shear_resistance="1500 kN", moment_resistance="0.9 MN*m")))
+    rows = {row[0]: row for row in sheet.inputs.case_table().rows}
+    assert [
+        number(rows[f"{name} resistance, from 2.5 m upward"][2]) for name in ("Shear", "Moment")
+    ] == [
+        1500.0,
+        900.0,
+    ]
+    results = Results.of(sheet.calculation)
+    for name, used in results.uses.items():
+        assert used.demand / used.resistance == pytest.approx(results.utilisations[name], rel=1e-12)
+        assert used.demand <= getattr(results, f"largest_{name}") * (1.0 + 1e-12)
+        assert f"{used.low:g} to {used.high:g} m" in check_text("case", sheet.calculation)
+
+
+def test_the_smaller_member_forces_are_told_by_what_parts_use():
+    case = with_step(shear_resistance="0.02 MN", moment_resistance="16 MN*m")
+    case |= {"base": "pinned", "top": "fixed", "member_forces": "beam"}
+    result = Sheet(case_from(case)).calculation
+    static = max(
+        result.demands_of(part)["shear"].static / part.resistances["shear"]
+        for part in result.case.parts
+    )
+    words = next((own for own in warnings_beside_verdict(result) if "smaller" in own), "")
+    assert (static > result.utilisations["shear"]) == (f"{static:.3g} in shear" in words)
+
+
+def test_a_column_that_fails_in_shear_by_the_beam_has_no_ductility():
+    demands = sheet_of(column_height="9 m").calculation.demands
+    shear, moment = demands["shear"], demands["moment"]
+    assert shear.static < 0.9 * shear.beam
+    limits = {"moment_resistance": f"{0.95e-6 * moment.static} MN*m"}
+    limits["shear_resistance"] = (
+        f"{0.9e-6 * shear.beam} MN"  # which the static shear does not reach
+    )
+    words = words_of(sheet_of(column_height="9 m", **limits).member_forces.yielding())
+    assert "fails in shear before it yields in bending: it uses 1.11 times" in words

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from pierimpact.checks import InputError, brief, shortened
 from pierimpact.design.reaction import HIGH_IMPACT_HEIGHT, LOW_IMPACT_HEIGHT
@@ -24,6 +24,7 @@ from pierimpact.files.traffic import CaseTraffic, traffic_of
 from pierimpact.files.trucks import TruckFile, read_truck_file
 from pierimpact.files.yaml_keys import yaml_keys
 from pierimpact.pier.column import PierColumn, Step
+from pierimpact.pier.member_forces import within
 from pierimpact.pier.sections import (
     CircularSection,
     FilledCircularSection,
@@ -107,16 +108,18 @@ class Case:
             parts.append(Part(low, high, section, dict(resistances)))
         return tuple(parts)
 
-    def weakness(self, name: str, heights: ArrayLike) -> NDArray[np.float64]:
-        """Return what the base resists of "shear" or "moment" over what the column does at heights.
+    def weakness(self, name: str, z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the base's resistance over that of the column at heights, as a beam has them.
 
-        One where the case gives no resistance; of two parts that meet the larger [-].
+        To "shear" or "moment", one where the case gives none; where two parts meet, of the part
+        that the height belongs to [-].
         """
-        z, found = np.asarray(heights), []
+        found = np.ones_like(z)
         for part in self.parts:
-            ratio = self.parts[0].resistances.get(name, 1.0) / part.resistances.get(name, 1.0)
-            found.append(np.where((z >= part.low) & (z <= part.high), ratio, 0.0))
-        return np.asarray(np.max(found, axis=0))
+            if name in part.resistances:
+                ratio = self.parts[0].resistances[name] / part.resistances[name]
+                found[within(z, part.low, part.high)] = ratio
+        return found
 
     @property
     def whole(self) -> Part:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pierimpact.checks import whole
 from pierimpact.pier.arrangement import Arrangement
 from pierimpact.pier.equivalent import EquivalentPier
+from pierimpact.pier.member_forces import within
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -87,7 +88,7 @@ class BeamPier:
 
     def between(self, low: float, high: float) -> "BeamPier":
         """Return the same beam, whose fields are those of its heights from one to another [m]."""
-        own = (self.z >= low) & (self.z <= high)
+        own = within(self.z, low, high)
         fields = {name: getattr(self, name)[:, own] for name in ("deflection", "shear", "moment")}
         return replace(self, z=self.z[own], **fields)
 

@@ -112,7 +112,9 @@ class MemberForces:
 
     def shear_within(self, low: float, high: float) -> float:
         """Return the largest magnitude of the shear from one height to another, above it [N]."""
-        below, above = low < self.impact_height, high > self.impact_height
+        z, bottom, top = self.impact_height, self.bottom, self.height
+        # Where an end is struck, the force of its support counts, as it does in `largest_shear`.
+        below, above = low < z or z == low == bottom, high > z or z == high == top
         return float(np.max(np.abs(self.shear[[0, 2]]), where=[below, above], initial=0.0))
 
     def moment_within(self, low: float, high: float) -> float:
@@ -232,7 +234,7 @@ class MemberForceHistory:
 
     def between(self, low: float, high: float) -> "MemberForceHistory":
         """Return the same at those of its heights that are from one to another [m]."""
-        own = (self.z >= low) & (self.z <= high)
+        own = within(self.z, low, high)
         return MemberForceHistory(
             time=self.time, z=self.z[own], shear=self.shear[:, own], moment=self.moment[:, own]
         )
@@ -246,6 +248,20 @@ class MemberForceHistory:
         return BeamExtremes(
             beside(largest, largest.value.argmax()), beside(smallest, smallest.value.argmin())
         )
+
+
+def within(z: NDArray[np.float64], low: float, high: float) -> slice:
+    """Return which of ascending heights are from one to another [m].
+
+    Of a height that is there twice, for what is below it and above it, those within count; at the
+    ends of all heights both do.
+    """
+    first, last = np.searchsorted(z, low, "left"), np.searchsorted(z, high, "right")
+    if low > z[0]:
+        first = max(first, np.searchsorted(z, low, "right") - 1)
+    if high < z[-1]:
+        last = min(last, np.searchsorted(z, high, "left") + 1)
+    return slice(int(first), int(last))
 
 
 def _with_neighbours(index: Any, count: int) -> NDArray[np.intp]:

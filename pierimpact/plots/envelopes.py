@@ -194,21 +194,21 @@ def _draw_resistances(
         resistance = part.resistances.get(quantity.name)
         if resistance is None:
             continue
-        place, words = resistance / unit, named(quantity.resistance, resistance, system)
-        if place > _FAR * largest:
+        at, words = resistance / unit, named(quantity.resistance, resistance, system)
+        if at > _FAR * largest:
             far += [words] if words not in far else []
             continue
-        near.append(place)
+        near.append(at)
         for side in (-1.0, 1.0):
-            axes.plot([side * place] * 2, [start, end], **_RESISTANCE)
+            axes.plot([side * at] * 2, [start, end], **_RESISTANCE)
             if words in drawn:
                 continue
             z = np.linspace(start, end, 9)
-            points = np.stack((np.full(9, side * place), z), axis=-1)
+            points = np.stack((np.full(9, side * at), z), axis=-1)
             text = words if side > 0.0 else f"$-{SYMBOLS[quantity.resistance].latex}$"
             labels.append(Label(axes, text, points, (side, 0.0), {"rotation": 90.0}))
         drawn.append(words)
-    most = max([1.35 * largest, *(1.2 * place for place in near)])
+    most = max([1.35 * largest, *(1.2 * own for own in near)])
     axes.set_xlim(-most, most)
     axes.set_xlabel(f"{heading}; {', '.join(far)}, beyond this figure" if far else heading)
     return labels

@@ -61,7 +61,7 @@ class Demand(NamedTuple):
         return None if self.beam is None else self.static / self.beam
 
 
-class Check(NamedTuple):
+class Use(NamedTuple):
     """The largest "shear" or "moment" on a part of the column, and what that part resists."""
 
     part: Part
@@ -311,7 +311,7 @@ class Calculation:
                     for impact, reactions in zip(self.impacts, self._sampled_reactions, strict=True)
                 ]
             )
-            for part in self._resisting
+            for part in self.resisting
         ]
 
     def demand_bands_by(self, method: str) -> dict[str, tuple[float, float]]:
@@ -358,7 +358,7 @@ class Calculation:
         return {name: largest(name) for name in ("shear", "moment")}
 
     @property
-    def _resisting(self) -> tuple[Part, ...]:
+    def resisting(self) -> tuple[Part, ...]:
         """The parts of the column, or the whole where all resist the same."""
         parts = self.case.parts
         same = all(part.resistances == parts[0].resistances for part in parts)
@@ -385,7 +385,7 @@ class Calculation:
         limits = {
             (impact.reaction / limit, limit): (impact, part)
             for impact in self.impacts
-            for part in self._resisting
+            for part in self.resisting
             for limit in (_limit(impact.struck, part),)
         }
         most, limit = max(limits)
@@ -397,7 +397,7 @@ class Calculation:
         forces = impact.struck.member_forces(limit)
         shears = [
             forces.shear_within(*own[:2]) / own.resistances.get("shear", math.inf)
-            for own in self._resisting
+            for own in self.resisting
         ]
         return Yielding(impact.struck, part, history, max(shears))
 
@@ -435,7 +435,7 @@ class Calculation:
         return {
             name: max(
                 getattr(forces, f"{name}_within")(*part[:2]) / part.resistances[name]
-                for part in self._resisting
+                for part in self.resisting
             )
             for name in self.resistances
         }
@@ -446,21 +446,21 @@ class Calculation:
         return self.case.parts[0].resistances
 
     @cached_property
-    def checks(self) -> dict[str, Check]:
+    def uses(self) -> dict[str, Use]:
         """Where "shear" and "moment" use most of what the column resists, if it is given."""
         found = {}
         for name in self.resistances:
-            checks = [
-                Check(part, self.demands_of(part)[name], part.resistances[name])
-                for part in self._resisting
+            uses = [
+                Use(part, self.demands_of(part)[name], part.resistances[name])
+                for part in self.resisting
             ]
-            found[name] = max(checks, key=lambda check: check.utilisation)
+            found[name] = max(uses, key=lambda use: use.utilisation)
         return found
 
     @property
     def utilisations(self) -> dict[str, float]:
         """Demand over resistance, "shear" and "moment", where the case gives a resistance [-]."""
-        return {name: check.utilisation for name, check in self.checks.items()}
+        return {name: use.utilisation for name, use in self.uses.items()}
 
     @property
     def upper_utilisations(self) -> dict[str, float]:
@@ -471,21 +471,14 @@ class Calculation:
         """Return them by one of the methods of `sampled_demands`."""
         if not self.band.spread:
             return {}
-        return {
-            name: float(
-                quantiles(
-                    np.fmax.reduce(
-                        [
-                            sampled[name][method] / part.resistances[name]
-                            for part, sampled in zip(
-                                self._resisting, self._sampled_by_part, strict=True
-                            )
-                        ]
-                    )
-                )[-1]
-            )
-            for name in self.resistances
-        }
+        return {name: self._upper_utilisation(name, method) for name in self.resistances}
+
+    def _upper_utilisation(self, name: str, method: str) -> float:
+        of_parts = [
+            sampled[name][method] / part.resistances[name]
+            for part, sampled in zip(self.resisting, self._sampled_by_part, strict=True)
+        ]
+        return float(quantiles(np.fmax.reduce(of_parts))[-1])
 
     def to_dataframe(self) -> Any:
         """Return the results as a pandas table: a row for each, its value in SI units and its unit.

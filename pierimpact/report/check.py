@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from pierimpact.plain_text import WIDTH, text_item, text_table
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.outcome import first_results, most_used, statement, verdict
+from pierimpact.report.outcome import DEMANDS, first_results, most_used, statement, verdict
 from pierimpact.report.results import Results
 from pierimpact.report.warnings import warnings_of
-from pierimpact.units import compared
+from pierimpact.units import compared, printed
 
 _LABEL, _VALUE = 22, 18  # columns of the table [characters]
 
@@ -48,8 +48,13 @@ def _utilisations(calculation: Calculation) -> Iterator[tuple[str, str, str]]:
         remark = verdict(ratio, at_upper)
         if at_upper is not None:
             remark += f"; {compared(at_upper)} at the upper end of the band"
-        part = most_used(calculation, name)
-        yield f"Utilisation in {name}", compared(ratio), f"{part}: {remark}" if part else remark
+        part, use = most_used(calculation, name), calculation.uses[name]
+        if part:
+            system, quantity = calculation.case.inputs.units, DEMANDS[name]
+            demand = printed(use.demand.value, quantity, system)
+            resistance = printed(use.resistance, quantity, system, given=True)
+            remark = f"{demand} of {resistance}, {part}: {remark}"
+        yield f"Utilisation in {name}", compared(ratio), remark
 
 
 def check_json(name: str, calculation: Calculation) -> str:

@@ -1,6 +1,7 @@
 """What a case comes to in words: the verdict, and the results that stand first."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from typing import NamedTuple
 
 from pierimpact.design.codes import aashto_lrfd
@@ -31,7 +32,6 @@ def statement(calculation: Calculation) -> str:
             f"The column must resist a shear of {shear} and a moment of {moment}. The case "
             "gives no resistance: nothing is checked against it."
         )
-    of_all = ", of one resistance for all parts" if one_for_all(calculation) else ""
     missing = "".join(f" The {name} is not checked." for name in DEMANDS if name not in ratios)
     failing = {name: ratio for name, ratio in ratios.items() if ratio > 1.0}
     beyond = {
@@ -39,9 +39,11 @@ def statement(calculation: Calculation) -> str:
     }
     if failing:
         more = f"; at the upper end of the band {listed(beyond)}, too" if beyond else ""
-        return f"The column does not hold: utilisation {listed(failing)}{more}{of_all}.{missing}"
+        of_what = _of_what(failing, calculation)
+        return f"The column does not hold: utilisation {listed(failing)}{more}{of_what}.{missing}"
     checked = " as far as it is checked" if missing else ""
-    holds = f"The column holds this truck{checked}: utilisation {listed(ratios)}{of_all}"
+    holds = f"The column holds this truck{checked}: utilisation {listed(ratios)}"
+    holds += _of_what(ratios, calculation)
     if not at_upper:
         return f"{holds}, if the truck is known exactly.{missing}"
     if beyond:
@@ -52,15 +54,26 @@ def statement(calculation: Calculation) -> str:
     return f"{holds}; {listed(at_upper)} at the upper end of the band.{missing}"
 
 
-def one_for_all(calculation: Calculation) -> list[str]:
-    """Return of "shear" and "moment" those whose one resistance is for parts that differ."""
-    parts = calculation.case.parts
-    if len({part.section for part in parts}) == 1:
-        return []
+def _of_what(ratios: Mapping[str, float], calculation: Calculation) -> str:
+    """Return which of these utilisations are of a resistance that different parts share."""
+    names = [name for name in shared(calculation) if name in ratios]
+    if not names:
+        return ""
+    where = "" if len(names) == len(ratios) else f"in {names[0]} "
+    return f", {where}of one resistance for parts that differ"
+
+
+def shared(calculation: Calculation) -> list[str]:
+    """Return of "shear" and "moment" those whose resistance parts of different sections share."""
+    case = calculation.case
+    steps = list(zip(case.inputs.steps, pairwise(case.parts), strict=True))
     return [
         name
         for name in calculation.resistances
-        if len({part.resistances[name] for part in parts}) == 1
+        if any(
+            getattr(step, f"{name}_resistance") is None and below.section != above.section
+            for step, (below, above) in steps
+        )
     ]
 
 
@@ -77,7 +90,7 @@ def most_used(calculation: Calculation, name: str) -> str:
 
     Empty where all of the column resists the same.
     """
-    part = calculation.checks[name].part
+    part = calculation.uses[name].part
     if part == calculation.case.whole:
         return ""
     return stretch(part.low, part.high, calculation.case.inputs.units)

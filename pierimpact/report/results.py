@@ -17,6 +17,18 @@ RESULTS_MIME = "application/vnd.pierimpact.report.results+json"
 KEPT, AT_UPPER, EXCEEDED = "kept", "exceeded at 95 %", "exceeded"
 
 
+class Used(BaseModel):
+    """The largest shear or moment on the part of the column that uses most of what it resists."""
+
+    model_config = ConfigDict(frozen=True)
+
+    demand: float  #: in SI units, as all
+    method: str  #: that it is found by, "beam" or "static"
+    resistance: float
+    low: float  #: height from which the part goes
+    high: float  #: to which
+
+
 class Results(BaseModel):
     """Identification, inputs and results of a case, in SI units.
 
@@ -37,7 +49,7 @@ class Results(BaseModel):
 
     column_shape: str
     column_sizes: tuple[float, ...]  #: diameter, or width and depth, and the like [m]
-    step_heights: tuple[float, ...]  #: at which the section changes [m]
+    step_heights: tuple[float, ...]  #: at which the section or a resistance changes [m]
     column_height: float
     embedment: float | None  #: as given; None where the column is not embedded [m]
     base: str  #: what holds it: "fixed", "pinned", "free", "on springs" …
@@ -66,9 +78,9 @@ class Results(BaseModel):
     member_bands: dict[str, tuple[float, float]]
     #: 25 ms average of the contact force over the force of AASHTO LRFD, which is such an average.
     code_ratio: float
-    #: Resistances of the part of the column that uses most of its own, as the utilisations are.
-    shear_resistance: float | None
+    shear_resistance: float | None  #: of the lowest part of the column
     moment_resistance: float | None
+    uses: dict[str, Used]  #: what the utilisations are of
     utilisations: dict[str, float]  #: by "shear" and "moment", where there is a resistance
     upper_utilisations: dict[str, float]  #: the same at the band's upper end; empty without a band
     verdict: str  #: in a sentence
@@ -120,7 +132,16 @@ class Results(BaseModel):
             "moment_method": moment.method,
             "member_bands": calculation.demand_bands,
             "code_ratio": calculation.code_ratio,
-            **{f"{name}_resistance": own.resistance for name, own in calculation.checks.items()},
+            "uses": {
+                name: Used(
+                    demand=use.demand.value,
+                    method=use.demand.method,
+                    resistance=use.resistance,
+                    low=use.part.low,
+                    high=use.part.high,
+                )
+                for name, use in calculation.uses.items()
+            },
             "utilisations": calculation.utilisations,
             "upper_utilisations": calculation.upper_utilisations,
             "verdict": statement(calculation),

@@ -3,7 +3,7 @@
 import json
 import math
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple, TypeAlias
@@ -12,15 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pierimpact.checks import InputError
-from pierimpact.files.case import Case
+from pierimpact.files.case import Case, Part
 from pierimpact.files.traffic import NEEDED, CaseTraffic
+from pierimpact.pier.beam import BeamPier
 from pierimpact.plain_text import WIDTH, text_item, text_table
 from pierimpact.report.calculation import Calculation, calculate
 from pierimpact.risk.analysis import SIZE, Feared, Risk, Run, in_turn, risk, weighted_quantiles
 from pierimpact.risk.beam_strikes import beam_strikes
 from pierimpact.risk.exceedance import Estimate, Exceedance, probability
 from pierimpact.risk.traffic import YEAR, Traffic
-from pierimpact.units import printed, rounded, unit_of, unit_size
+from pierimpact.units import printed, rounded, stated, unit_of, unit_size
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -38,13 +39,11 @@ _WIDEST = (30, 30, WIDTH - 64)
 
 
 class Check(NamedTuple):
-    """A resistance of the case, and how often it is exceeded."""
+    """A resistance of the case, and how often it, or that of any part, is exceeded."""
 
     name: str  #: "shear" or "moment"
-    resistance: float  #: [N] or [N m]
-    reaction: (
-        float  #: reaction that is exceeded as often; infinite where none of the trucks does [N]
-    )
+    resistance: float  #: of the lowest part of the column [N] or [N m]
+    reaction: float  #: that is exceeded as often; infinite where no truck does [N]
     rate: Estimate  #: [1/year]
 
 
@@ -69,23 +68,21 @@ class CaseRisk:
 
     @cached_property
     def static(self) -> dict[str, Array]:
-        """Largest "shear" and "moment" under the reaction of each truck as a static force.
+        """Largest "shear" and "moment" under the reaction of each truck as a static force."""
+        return {name: self._static(name, [self.case.whole]) for name in RESISTANCES}
 
-        Where parts of the column differ in what they resist, times what the base resists over what
-        the part does.
-        """
-        found = {}
-        for name in RESISTANCES:
-            effects = [
-                max(
-                    getattr(impact.struck.member_forces(1.0), f"{name}_within")(part.low, part.high)
-                    * float(self.case.weakness(name, 0.5 * (part.low + part.high)))
-                    for part in self.case.parts
-                )
-                for impact in self.calculation.impacts
-            ]
-            found[name] = (self.risk.strikes.reactions * effects).max(axis=1)
-        return found
+    def _static(self, name: str, parts: Sequence[Part], base: float = 1.0) -> Array:
+        """Return the largest on any of these parts, each times `base` over what it resists."""
+        effects = [
+            max(
+                getattr(impact.struck.member_forces(1.0), f"{name}_within")(part.low, part.high)
+                * (base / part.resistances[name] if len(parts) > 1 else 1.0)
+                for part in parts
+            )
+            for impact in self.calculation.impacts
+        ]
+        largest: Array = (self.risk.strikes.reactions * effects).max(axis=1)
+        return largest
 
     @cached_property
     def as_beam(self) -> dict[str, Array]:
@@ -93,13 +90,11 @@ class CaseRisk:
 
         Empty where the case asks for static ones.
         """
-        weigh = self.case.weakness
-        beams = [
-            impact.beam.weighted(weigh("shear", impact.beam.z), weigh("moment", impact.beam.z))
-            for impact in self.calculation.impacts
-            if impact.beam is not None
-        ]
-        return beam_strikes(self.risk, beams)._asdict() if beams else {}
+        return beam_strikes(self.risk, self._beams)._asdict() if self._beams else {}
+
+    @property
+    def _beams(self) -> list[BeamPier]:
+        return [impact.beam for impact in self.calculation.impacts if impact.beam is not None]
 
     @cached_property
     def effects(self) -> dict[str, Exceedance]:
@@ -107,13 +102,32 @@ class CaseRisk:
 
         Static ones are those of all trucks; what the beam makes of the first corrects them.
         """
-        found = {}
-        for name, static in self.static.items():
-            better = self.as_beam.get(name)
-            if better is not None and self.case.inputs.member_forces == "larger":
-                better = np.maximum(better, static[: len(better)])
-            found[name] = self.risk.exceedance(static, better)
-        return found
+        by_beam = self.as_beam
+        return {name: self._exceedance(own, by_beam.get(name)) for name, own in self.static.items()}
+
+    def _exceedance(self, static: Array, better: Array | None) -> Exceedance:
+        if better is not None and self.case.inputs.member_forces == "larger":
+            better = np.maximum(better, static[: len(better)])
+        return self.risk.exceedance(static, better)
+
+    @cached_property
+    def against(self) -> Mapping[str, Exceedance]:
+        """How often "shear" and "moment" are exceeded, each against what its part resists.
+
+        Of parts that resist differently as `effects` would be if all resisted what the base does.
+        """
+        parts = self.calculation.resisting
+        if len(parts) == 1:
+            return self.effects
+        beams = [
+            beam.weighted(*(self.case.weakness(name, beam.z) for name in RESISTANCES))
+            for beam in self._beams
+        ]
+        by_beam = beam_strikes(self.risk, beams)._asdict() if beams else {}
+        return {
+            name: self._exceedance(self._static(name, parts, base), by_beam.get(name))
+            for name, base in self.calculation.resistances.items()
+        }
 
     @cached_property
     def beam(self) -> dict[str, tuple[float, float, float]]:
@@ -149,7 +163,7 @@ class CaseRisk:
         for name, key in RESISTANCES.items():
             resistance = getattr(self.case.inputs, key)
             if resistance is not None:
-                rate = self.effects[name].rate(resistance)
+                rate = self.against[name].rate(resistance)
                 found.append(Check(name, resistance, self.as_often(rate), yearly(rate)))
         return found
 
@@ -346,7 +360,7 @@ def _as_often(result: CaseRisk, check: Check) -> str:
     """Return what a resistance's frequency is like."""
     if check.reaction == math.inf:
         return "by none of the trucks drawn"
-    share = share_text(result, result.effects[check.name].rate(check.resistance))
+    share = share_text(result, result.against[check.name].rate(check.resistance))
     return f"as often as a reaction of {result.force(check.reaction)}; {share} of all hits"
 
 
@@ -401,7 +415,7 @@ def drawn(result: CaseRisk) -> str:
 def heights_text(result: CaseRisk) -> str:
     """Return in a sentence at which height the trucks strike."""
     system = result.case.inputs.units
-    shown = [str(printed(height, "length", system, given=True)) for height in result.heights]
+    shown = [stated(height, "length", system) for height in result.heights]
     if len(shown) == 1:
         return f"The trucks strike at a nominal height of {shown[0]}."
     return (

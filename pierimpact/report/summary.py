@@ -201,8 +201,9 @@ _RESULTS_CAPTION = (
     "of the given spread stay below; largest shear ",
     *(Tex("V"), " and moment ", Tex("M"), " anywhere on the column, by the column as a beam or "),
     *("under the static reaction, and over their resistances ", Tex(r"V_\mathrm{R}"), " and "),
-    *(Tex(r"M_\mathrm{R}"), ", in the part that uses most of its own; code ratio: largest 25 ms "),
-    "average of the contact force over the force of AASHTO LRFD, which is such an average.",
+    *(Tex(r"M_\mathrm{R}"), " (where its parts resist differently, of the part that uses most of "),
+    "its own); code ratio: largest 25 ms average of the contact force over the force of AASHTO "
+    "LRFD, which is such an average.",
 )
 _CASES_CAPTION = (
     *("Cases: total mass of the truck ", Tex("m_1 + m_2"), ", speed at first touch ", Tex("V")),
@@ -386,6 +387,8 @@ def _values(row: Row, system: str) -> dict[str, Any]:
     if result is None:
         return {"case": row.name, "status": "not calculated", "reason": "; ".join(row.remarks)}
     values = {name.replace("_", " "): value for name, value in result.model_dump().items()}
+    for check, use in result.uses.items():
+        values[f"largest {check}"], values[f"{check} method"] = use.demand, use.method
     for check in CHECKS:
         values[f"utilisation in {check}"] = result.utilisations.get(check)
         values[f"utilisation in {check} at 95 %"] = result.upper_utilisations.get(check)

@@ -9,7 +9,7 @@ from pierimpact.files.inputs import NOT_GIVEN
 from pierimpact.files.plausible import unusual
 from pierimpact.pier.static_forces import TOO_LOW
 from pierimpact.report.calculation import Calculation
-from pierimpact.report.outcome import listed, one_for_all
+from pierimpact.report.outcome import listed, shared
 from pierimpact.symbols import BY_KEY, SYMBOLS
 from pierimpact.units import Printed, compared, printed, rounded, stated, unit_of, unit_size
 from pierimpact.vehicle.truck import another_truck
@@ -77,12 +77,12 @@ def _under_code(calculation: Calculation) -> Iterator[str]:
 
 def _one_resistance(calculation: Calculation) -> Iterator[str]:
     """Yield where parts of different sections are held against the same resistance."""
-    names = one_for_all(calculation)
+    names = shared(calculation)
     if names:
         yield (
-            f"One {' and one '.join(names)} resistance is held against all parts of the column, "
-            "whose sections differ. The table by parts has the forces of each; a step takes "
-            "resistances of its own."
+            "Parts of the column whose sections differ are held against the same "
+            f"{' and '.join(names)} resistance. The table by parts has the forces of each; a step "
+            "takes resistances of its own."
         )
 
 
@@ -97,17 +97,23 @@ def _low_in_band(calculation: Calculation) -> Iterator[str]:
 
 def _smaller_asked(calculation: Calculation) -> Iterator[str]:
     """Yield where the case asks for the column as a beam, and the static reaction gives more."""
-    resistances = calculation.resistances
-    more = {
-        name: (demand.ratio, demand.static / resistances.get(name, math.inf))
-        for name, demand in calculation.demands.items()
-        if demand.asked == "beam" and demand.ratio is not None and demand.ratio > 1.0
+    if calculation.case.inputs.member_forces != "beam":
+        return
+    ratios = {name: demand.ratio or 0.0 for name, demand in calculation.demands.items()}
+    static = {
+        name: max(
+            calculation.demands_of(part)[name].static / part.resistances[name]
+            for part in calculation.resisting
+        )
+        for name in calculation.resistances
     }
+    ratios |= {name: _over(used, calculation.utilisations[name]) for name, used in static.items()}
+    more = {name: ratio for name, ratio in ratios.items() if ratio > 1.0}
     if not more:
         return
-    times = " and ".join(f"{compared(ratio)} times the {name}" for name, (ratio, _) in more.items())
-    checked = [f"{compared(of)} in {name}" for name, (_, of) in more.items() if name in resistances]
-    utilisation = f", a utilisation of {' and '.join(checked)}" if checked else ""
+    times = " and ".join(f"{compared(ratio)} times the {name}" for name, ratio in more.items())
+    checked = {name: used for name, used in static.items() if name in more}
+    utilisation = f", a utilisation of {listed(checked)}" if checked else ""
     yield (
         "The case chose the smaller member forces, those of the column as a beam: the static "
         f"reaction gives {times}{utilisation}."
@@ -147,9 +153,9 @@ def _too_low(calculation: Calculation) -> Iterator[str]:
             )
 
 
-def _over(beam: float, static: float) -> float:
-    """Return how many times a static force one of the beam is; of a base that is struck none is."""
-    return beam / static if static > 0.0 else math.inf
+def _over(one: float, other: float) -> float:
+    """Return how many times another force one is; of a base that is struck some are none."""
+    return one / other if other > 0.0 else math.inf if one > 0.0 else 0.0
 
 
 def _times_too_low(over_static: dict[str, float]) -> str:

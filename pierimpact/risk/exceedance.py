@@ -28,6 +28,9 @@ Array: TypeAlias = NDArray[np.float64]
 CONFIDENCE = 0.95
 
 
+_ROUNDING = 1.0 - 1e-12  # numerical: of sums of the same weights in another order
+
+
 class Estimate(NamedTuple):
     """An estimate with its confidence band, floats or arrays of one shape."""
 
@@ -88,7 +91,7 @@ class Exceedance:
 
         Zero where even that is not exceeded so often; infinite where the draws cannot tell.
         """
-        share = positive("rate", rate) / self.frequency
+        share = positive("rate", rate) / self.frequency * _ROUNDING
         values = np.concatenate(((math.inf,), self.values, (0.0,)))
         return Estimate(*(values[np.searchsorted(each, share)] for each in self._grown))
 
@@ -112,10 +115,10 @@ class Exceedance:
         variance = np.maximum(self._squares[count] / n - mean**2, 0.0) / n
         one = self._most[count] / (self.corrected or n)
         if self.corrected:
-            mean = np.maximum(mean + self._more[count] / self.corrected, 0.0)
+            mean = np.clip(mean + self._more[count] / self.corrected, 0.0, self._sum[-1] / n)
             variance += np.maximum(self._doubt[count], 0.0) / self.corrected**2
         upper, spread = mean + one, variance + one**2
-        some = variance > 0.0
+        some = (variance > 0.0) & (mean > 0.0)
         scale = np.divide(variance, mean, out=np.ones_like(mean), where=some)
         low = np.where(some, scale * gammaincinv(mean / scale, tail), mean)
         wide = np.where(spread > 0.0, spread / np.where(upper > 0.0, upper, 1.0), 1.0)

@@ -11,6 +11,8 @@ _CLOSING = {")": "(", "]": "[", r"\rfloor": r"\lfloor"}
 _MARK = re.compile(r"(?:\\left|\\right)?(?:[()\[\]]|\\[lr]floor)|[{}]| (?:[=+-]|\\times(?! 10\^)) ")
 # Signs before which a line is broken, and in how many brackets at most: the first that occur.
 _WAYS = ((("=",), 0), *((s, most) for most in range(4) for s in (("+", "-"), (r"\times",))))
+# What is multiplied with what stands before it.
+_FACTOR = re.compile(r"\s*(?!\\(?:right|times|text|q?quad)\b)[^\s=+\-)\]},]")
 _ATOM = re.compile(r"\\[a-zA-Z]+|\\.|.", re.DOTALL)
 _NO_WIDTH = {r"\left", r"\right", r"\dot", r"\ddot", r"\bar", r"\hat", "{", "}", " "}
 _WORDS = {r"\sin", r"\cos", r"\tan", r"\arctan", r"\max", r"\min", r"\bmod"}
@@ -96,6 +98,8 @@ def _unfolded(formula: str) -> str:
             else:
                 start, end = end, _group_end(formula, end)
                 instead = f"{_bracketed(inner)} / {_bracketed(formula[start + 1 : end - 1])}"
+                if _FACTOR.match(formula, end):
+                    instead = rf"\left({instead}\right)"
             width = formula_width(formula[mark.start() : end])
             found.append((width, mark.start(), end, instead))
         depth += (mark[0] == "{") - (mark[0] == "}")

@@ -112,7 +112,7 @@ class FirstPage(Section):
         larger = inputs.member_forces == "larger"
         rows: list[list[Inline]] = []
         for name, quantity in DEMANDS.items():
-            check = result.checks.get(name)
+            check = result.uses.get(name)
             demand = check.demand if check else result.demands[name]
             part = most_used(result, name) if check else ""
             cells: list[Inline] = [

@@ -3,7 +3,7 @@
 import re
 from typing import Any
 
-from pierimpact.files.inputs import PHYSICAL_KEYS, SectionInputs
+from pierimpact.files.inputs import PHYSICAL_KEYS, StepInputs
 from pierimpact.plots.crush import draw_crush_curves
 from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.markup import Inline, Tex
@@ -37,7 +37,7 @@ class Inputs(Section):
         )
 
     def _step_rows(self) -> list[list[Inline]]:
-        """Return the dimensions of each section above the first, with the height it begins at."""
+        """Return dimensions and resistances of each step, with the height it begins at."""
         inputs, rows = self.case.inputs, []
         given: Any = self.case.given.get("steps", ())
         for step, typed in zip(inputs.steps, given, strict=True):
@@ -177,9 +177,10 @@ class Inputs(Section):
         return {NAMES[key]: table for key, table in tables.items()}
 
 
-def _keys_of(section: SectionInputs) -> list[str]:
-    """Return the keys of a cross-section that have a value."""
-    return [key for key in SectionInputs.model_fields if getattr(section, key) is not None]
+def _keys_of(step: StepInputs) -> list[str]:
+    """Return the keys of a step that have a value, but for its height."""
+    keys = [key for key in type(step).model_fields if key != "height"]
+    return [key for key in keys if getattr(step, key) is not None]
 
 
 def _table(label: str, caption: str, heading: str, rows: list[list[Inline]]) -> Block:

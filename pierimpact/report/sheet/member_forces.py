@@ -13,7 +13,7 @@ from pierimpact.report.document.numbered import Figure, Table, columns, decimal
 from pierimpact.report.outcome import DEMANDS
 from pierimpact.report.sheet.section import Section
 from pierimpact.symbols import SYMBOLS
-from pierimpact.units import rounded
+from pierimpact.units import compared, rounded
 
 _MODES = 8  # that are listed: this project's choice
 # Of a column whose moment is exceeded as a beam, and not under the static reaction.
@@ -301,8 +301,10 @@ class MemberForces(Section):
         None also where the case gives no moment resistance.
         """
         result, found = self.calculation, self.calculation.yielding
-        check = result.checks.get("moment")
-        by_beam = check is not None and check.demand.method == "beam" and check.utilisation > 1.0
+        use = result.uses.get("moment")
+        if use is None:
+            return None
+        by_beam = use.demand.method == "beam" and use.utilisation > 1.0
         if found is None:
             return Paragraph(_UNKNOWN) if by_beam else None
         struck, part, history, shear = found
@@ -314,6 +316,12 @@ class MemberForces(Section):
                 f"{self.shown(yields, 'force')}, at which the moment resistance is reached, the "
                 f"shear is {rounded(shear, 3)} times its resistance. There is no ductility to "
                 "count on."
+            )
+        if (first := result.utilisations.get("shear", 0.0)) > max(1.0, use.utilisation):
+            return Paragraph(
+                f"The column fails in shear before it yields in bending: it uses {compared(first)} "
+                f"times its shear resistance and {compared(use.utilisation)} times its moment "
+                "resistance. There is no ductility to count on."
             )
         largest = history.ductility * yields / history.pier.stiffness
         energy = history.pier_plastic_energy
