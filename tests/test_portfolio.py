@@ -9,10 +9,12 @@ import math
 import re
 from contextlib import contextmanager
 from types import SimpleNamespace
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 from dask_cluster import dask_cluster
+from figure_collisions import collisions
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -27,6 +29,7 @@ from pierimpact.network import portfolio as portfolio_module
 from pierimpact.network.piece import Task, calculate_beams, calculate_piece
 from pierimpact.network.portfolio import calculate_portfolio
 from pierimpact.network.tables import RESULTS, figures
+from pierimpact.plots.portfolio import draw_map
 from pierimpact.report.calculation import AVERAGE, calculate
 from pierimpact.resources import shipped
 
@@ -236,6 +239,15 @@ def test_what_check_warns_of_has_a_column_and_is_counted_on_the_page(tmp_path, h
     assert "The trucks of 2 rows are illustrative: single-unit-8t." in page
     assert "The truck of 1 row is heavier or lighter than the springs of its truck" in page
     assert "1 of the others gives one resistance" in page
+
+
+@pytest.mark.parametrize("wide", [0.01, 1.0, 30.0])
+def test_nothing_of_the_map_is_cut_off(wide):
+    random = np.random.default_rng(1)
+    latitude, longitude = 40.0 + random.random(50), -100.0 + wide * random.random(50)
+    with patch.dict(draw_map.__globals__, to_svg=lambda figure: figure):
+        figure = draw_map(latitude, longitude, 1e4 * random.random(50), "Design reaction [kN]")
+    assert not [line for line in collisions(figure) if "cut off" in line]
 
 
 def test_a_portfolio_of_rejected_rows_says_so(tmp_path, here):

@@ -6,10 +6,12 @@ import json
 import math
 import re
 from contextlib import contextmanager, nullcontext
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 from dask_cluster import dask_cluster
+from figure_collisions import collisions
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
@@ -25,7 +27,7 @@ from pierimpact.files.case import case_from
 from pierimpact.files.distributions import parse_distribution
 from pierimpact.files.weigh_in_motion import read_weigh_in_motion
 from pierimpact.network.workers import LostWorkersError
-from pierimpact.plots.risk import reactions
+from pierimpact.plots.risk import draw_exceedance, reactions
 from pierimpact.report.risk import RATES, case_risk, risk_json, risk_text
 from pierimpact.report.risk_page import risk_blocks, risk_csv
 from pierimpact.risk.traffic import ANGLES, YEAR, jcss_mass
@@ -385,6 +387,27 @@ def test_the_page_has_figures_and_says_what_is_default(result):
     assert [figure.label for figure in figures] == ["fig-exceedance", "fig-feared"]
     assert all(figure.svg.startswith("<?xml") and figure.alt for figure in figures)
     assert any("quite conservative" in text for text in blocks["Notice"].body)
+
+
+def test_powers_of_ten_of_the_page_stay_in_a_line(result):
+    (words,) = (
+        block.body
+        for block in risk_blocks("pier", result)
+        if type(block).__name__ == "Paragraph" and "strikes the pier" in str(block.body)
+    )
+    assert "×\u206010\u2060⁻" in words
+    assert "×10" not in words
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.01, 0.2])
+def test_the_figures_of_a_risk_are_clear(result, gap):
+    marks = {
+        f"{name} resistance": 5e6 * (1.0 + gap * place)
+        for place, name in enumerate(("shear", "moment", "design"))
+    }
+    with patch.dict(draw_exceedance.__globals__, to_svg=lambda figure: figure):
+        figure = draw_exceedance(result.risk, marks, {"TxDOT 0.001": 1e-3}, "SI")
+    assert not [line for line in collisions(figure) if "resistance' on '" in line]
 
 
 def test_the_command_writes_both_files_or_none(tmp_path, capsys):

@@ -1,6 +1,7 @@
 """Spreads against SciPy's distributions and their own moments."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.stats import lognorm, uniform
 
-from pierimpact import InputError, Lognormal, Uniform
+from pierimpact import InputError, Lognormal, Uniform, load_truck
 from pierimpact.vehicle.spread import checked_spreads
 
 FRACTIONS = np.linspace(0.001, 0.999, 41)
@@ -95,3 +96,9 @@ def test_bad_spreads_are_one_line(make, message):
     with pytest.raises(InputError, match=f"^{message}") as caught:
         make()
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("spread", [None, 0.3, ["speed"]])
+def test_spreads_are_a_mapping(spread):
+    with pytest.raises(InputError, match=r"^spread must be a mapping of parameters, got "):
+        replace(load_truck("single-unit-8t"), spread=spread)

@@ -86,7 +86,7 @@ def draw_map(latitude: Array, longitude: Array, value: Array, words: str) -> str
     width, height = max(east - west, 0.3 * room), max(north - south, 0.3 * room / aspect)
     centre = 0.5 * (west + east)
     tall = min(max(5.6 * height * aspect / width, 2.2), 6.5)
-    margins = {"left": 0.1, "right": 0.96, "bottom": 0.5 / (tall + 0.6), "top": 0.98}
+    margins = {"left": 0.1, "right": 0.91, "bottom": 0.5 / (tall + 0.6), "top": 0.98}
     with sheet_figure(tall + 0.6, **margins) as figure:
         axes = figure.subplots()
         ends = centre - 0.54 * width, centre + 0.54 * width

@@ -1,5 +1,6 @@
 """Figures of the risk from traffic: how often a reaction is exceeded, and by which trucks."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -23,6 +24,7 @@ _POINTS = 300  # of a curve
 DARK = "#5a5a5a"  # grey of words
 _LOWEST = 1e-7  # frequency shown [1/year]
 _CELLS = (48, 40)  # of the map, over mass and over speed
+_BESIDE = 0.045  # between two names, of the axis
 _SMOOTH = 1.4  # standard deviation by which the map is smoothed [cells]
 
 
@@ -91,12 +93,16 @@ def _curve(axes: Axes, exceedance: Exceedance, shown: Array, x: Array, colour: s
 
 
 def _name_marks(axes: Axes, marks: Mapping[str, float]) -> None:
-    for name, value in marks.items():
-        if value < axes.get_xlim()[1]:
-            axes.text(
-                value, 0.03, f" {name}", rotation=90, ha="right", va="bottom", fontsize=7.5,
-                color=VERMILION, transform=axes.get_xaxis_transform(),
-            )  # fmt: skip
+    """Write names along their marks, each beside the line before where that is near."""
+    most = axes.get_xlim()[1]
+    shown = sorted((value, name) for name, value in marks.items() if value < most)
+    right = -math.inf
+    for value, name in shown:
+        right = max(value, right + _BESIDE * most)
+        axes.text(
+            right, 0.03, f" {name}", rotation=90, ha="right", va="bottom", fontsize=7.5,
+            color=VERMILION, transform=axes.get_xaxis_transform(),
+        )  # fmt: skip
 
 
 def draw_feared(risk: Risk, level: float, system: str) -> str:

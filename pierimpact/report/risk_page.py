@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TypeAlias
@@ -137,7 +138,7 @@ def risk_blocks(name: str, result: CaseRisk) -> list[Block]:
             paper="a4" if inputs.units == "SI" else "us-letter",
         ),
         Headline(results=[_headline(line.label, line.value, line.remark) for line in first]),
-        Paragraph(statement(result)),
+        Paragraph(_unbroken(statement(result))),
         Notice(heading="Before you rely on this", body=result.warnings),
         _exceedance(result),
         _frequencies(result),
@@ -165,7 +166,13 @@ def _headline(label: str, value: str, remark: str) -> tuple[str, Printed, str]:
     if number.endswith(" a year"):
         figure, unit = number.removesuffix(" a year"), "a year"
     band = f"{bracket}{rest}".strip()
-    return label, Printed(figure, unit), f"{band} {remark}".strip()
+    shown = Printed(_unbroken(figure), unit)
+    return label, shown, _unbroken(f"{band} {remark}".strip())
+
+
+def _unbroken(text: str) -> str:
+    """Return a text whose powers of ten no line ends in."""
+    return re.sub("×10(?=[⁻⁰¹²³⁴⁵⁶⁷⁸⁹])", "×\u206010\u2060", text)
 
 
 def _exceedance(result: CaseRisk) -> Block:
@@ -199,7 +206,7 @@ def _frequencies(result: CaseRisk) -> Block:
         ]
         rows.append(
             [
-                rounded(rate, 1),
+                _unbroken(rounded(rate, 1)),
                 f"{1.0 / rate:,.0f}".replace(",", "\u202f"),
                 value_text(value, "force", system),
                 *effects,

@@ -130,6 +130,8 @@ def checked_spreads(spreads: Mapping[str, object], names: Collection[str]) -> di
 
     Friction alone may be zero.
     """
+    if not isinstance(spreads, Mapping):
+        raise InputError(f"spread must be a mapping of parameters, got {brief(spreads)}")
     checked: dict[str, Spread] = {}
     for name, spread in spreads.items():
         known(name, names, "a parameter with a spread")
