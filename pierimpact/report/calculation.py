@@ -348,10 +348,10 @@ class Calculation:
         of_each = [impact.demands_of(part) for impact in self.impacts]
 
         def largest(name: str) -> Demand:
-            beams = [own[name].beam for own in of_each if own[name].beam is not None]
+            beams = [beam for own in of_each if (beam := own[name].beam) is not None]
             return Demand(
                 max(own[name].static for own in of_each),
-                max(filter(None, beams), default=None),
+                max(beams, default=None),
                 self.case.inputs.member_forces,
             )
 
