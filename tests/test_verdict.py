@@ -375,3 +375,17 @@ def test_a_column_that_fails_in_shear_by_the_beam_has_no_ductility():
     )
     words = words_of(sheet_of(column_height="9 m", **limits).member_forces.yielding())
     assert "fails in shear before it yields in bending: it uses 1.11 times" in words
+
+
+def test_a_sheet_lists_no_traffic_that_it_does_not_rest_on():
+    traffic = {
+        "traffic_volume": "20000 vehicles/day",
+        "truck_share": 0.15,
+        "distance_from_road": "6 m",
+        "exposed_width": "3 m",
+        "assumed": {"truck_share": "of the district"},
+    }
+    assert "Assumed" not in " ".join(warnings_beside_verdict(sheet_of(**traffic).calculation))
+    names = [row[0] for row in sheet_of(**traffic).inputs.case_table().rows]
+    assert names == [row[0] for row in sheet_of().inputs.case_table().rows]
+    assert "Speed at first touch" in names

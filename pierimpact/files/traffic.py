@@ -23,6 +23,8 @@ from pierimpact.risk.traffic import (
 
 #: Without any of these nothing can be said of the traffic.
 NEEDED = ("traffic_volume", "truck_share", "distance_from_road")
+#: The numbers of a case that are for its traffic alone.
+OF_TRAFFIC = (*NEEDED, "exposed_width", "encroachment_rate")
 
 
 @dataclass(frozen=True, kw_only=True)

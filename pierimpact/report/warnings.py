@@ -7,6 +7,7 @@ from pierimpact.design.band import LEVELS
 from pierimpact.design.domain import Outside
 from pierimpact.files.inputs import NOT_GIVEN
 from pierimpact.files.plausible import unusual
+from pierimpact.files.traffic import OF_TRAFFIC
 from pierimpact.pier.static_forces import TOO_LOW
 from pierimpact.report.calculation import Calculation
 from pierimpact.report.outcome import listed, shared
@@ -244,8 +245,9 @@ def _unknown(calculation: Calculation) -> Iterator[str]:
         )
     if not calculation.band.spread:
         yield "The truck’s parameters carry no spread, as if they were known exactly."
-    if case.inputs.assumed:
-        names = ", ".join(BY_KEY[key].meaning for key in case.inputs.assumed)
+    assumed = [key for key in case.inputs.assumed if key not in OF_TRAFFIC]
+    if assumed:
+        names = ", ".join(BY_KEY[key].meaning for key in assumed)
         yield f"Assumed, not given by any source: {names}."
     if case.column.top_mass and math.isinf(case.column.supports[1].stiffness):
         yield "The mass at the top has no effect: the top of this column does not move sideways."

@@ -4,6 +4,7 @@ import re
 from typing import Any
 
 from pierimpact.files.inputs import PHYSICAL_KEYS, StepInputs
+from pierimpact.files.traffic import OF_TRAFFIC
 from pierimpact.plots.crush import draw_crush_curves
 from pierimpact.report.document.blocks import Block, Notes
 from pierimpact.report.document.markup import Inline, Tex
@@ -58,9 +59,10 @@ class Inputs(Section):
         return "" if _plain(own) == _plain(unit) else f"; given as {typed}"
 
     def _keys(self) -> list[str]:
-        """Return the keys of the case that have a value."""
-        inputs = self.case.inputs
-        return [k for k in PHYSICAL_KEYS if getattr(inputs, k) is not None or k == "truck_mass"]
+        """Return the keys that the sheet rests on, of those that have a value."""
+        keys = [key for key in PHYSICAL_KEYS if key not in OF_TRAFFIC]
+        given = self.case.inputs
+        return [key for key in keys if getattr(given, key) is not None or key == "truck_mass"]
 
     def _input_row(self, key: str) -> list[Inline]:
         case, symbol = self.case, BY_KEY[key]
