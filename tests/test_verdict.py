@@ -1,6 +1,8 @@
 """What a sheet says first: whether the column holds, how surely, and what stands against it."""
 
+import csv
 import datetime
+import io
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +17,7 @@ from pierimpact.report.check import check_text
 from pierimpact.report.outcome import first_results, statement
 from pierimpact.report.results import Results
 from pierimpact.report.sheet import Sheet
+from pierimpact.report.summary import Row, summary_csv
 from pierimpact.report.warnings import warnings_beside_verdict
 from pierimpact.resources import shipped
 
@@ -389,3 +392,19 @@ def test_a_sheet_lists_no_traffic_that_it_does_not_rest_on():
     names = [row[0] for row in sheet_of(**traffic).inputs.case_table().rows]
     assert names == [row[0] for row in sheet_of().inputs.case_table().rows]
     assert "Speed at first touch" in names
+
+
+def test_a_row_of_the_summary_is_of_the_part_that_uses_most():
+    case = with_step(shear_resistance="0.9 MN", moment_resistance="0.7 MN*m")
+    results = Results.of(Sheet(case_from(case)).calculation)
+    rows = csv.DictReader(io.StringIO(summary_csv([Row("a", results, [])]), newline=""))
+    (row,) = rows
+    for name, unit in (("shear", "kN"), ("moment", "kN·m")):
+        largest, use = float(row[f"largest {name} [{unit}]"]), results.uses[name]
+        assert largest == pytest.approx(1e-3 * use.demand, rel=1e-3)
+        assert row[f"{name} method"] == use.method
+        limit = 1e-3 * use.resistance
+        assert float(row[f"utilisation in {name}"]) == pytest.approx(largest / limit, rel=1e-3)
+        upper = float(row[f"{name}, 95 % of trucks below [{unit}]"])
+        at_upper = float(row[f"utilisation in {name} at 95 %"])
+        assert at_upper == pytest.approx(upper / limit, rel=1e-3)

@@ -387,12 +387,15 @@ def _values(row: Row, system: str) -> dict[str, Any]:
     if result is None:
         return {"case": row.name, "status": "not calculated", "reason": "; ".join(row.remarks)}
     values = {name.replace("_", " "): value for name, value in result.model_dump().items()}
-    for check, use in result.uses.items():
-        values[f"largest {check}"], values[f"{check} method"] = use.demand, use.method
     for check in CHECKS:
-        values[f"utilisation in {check}"] = result.utilisations.get(check)
-        values[f"utilisation in {check} at 95 %"] = result.upper_utilisations.get(check)
+        upper = result.upper_utilisations.get(check)
         _, high = result.member_bands.get(check, (None, None))
+        if check in result.uses:  # on the part that the utilisation is of
+            use = result.uses[check]
+            values[f"largest {check}"], values[f"{check} method"] = use.demand, use.method
+            high = None if upper is None else upper * use.resistance
+        values[f"utilisation in {check}"] = result.utilisations.get(check)
+        values[f"utilisation in {check} at 95 %"] = upper
         values[f"{check}, 95 % of trucks below"] = high
     low, high = result.band or (None, None)
     warnings = _warnings(row)
