@@ -108,6 +108,12 @@ class Case:
             parts.append(Part(low, high, section, dict(resistances)))
         return tuple(parts)
 
+    @property
+    def differing(self) -> list[str]:
+        """Of "shear" and "moment" those that parts of the column resist differently."""
+        first, *others = (part.resistances for part in self.parts)
+        return [name for name in first if any(own[name] != first[name] for own in others)]
+
     def weakness(self, name: str, z: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the base's resistance over that of the column at heights, as a beam has them.
 

@@ -235,6 +235,8 @@ class MemberForceHistory:
     def between(self, low: float, high: float) -> "MemberForceHistory":
         """Return the same at those of its heights that are from one to another [m]."""
         own = within(self.z, low, high)
+        if own == slice(0, len(self.z)):
+            return self  # which knows its peaks
         return MemberForceHistory(
             time=self.time, z=self.z[own], shear=self.shear[:, own], moment=self.moment[:, own]
         )

@@ -360,9 +360,7 @@ class Calculation:
     @property
     def resisting(self) -> tuple[Part, ...]:
         """The parts of the column, or the whole where all resist the same."""
-        parts = self.case.parts
-        same = all(part.resistances == parts[0].resistances for part in parts)
-        return (self.case.whole,) if same else parts
+        return self.case.parts if self.case.differing else (self.case.whole,)
 
     def largest_of_beam(self, name: str) -> tuple[BeamExtreme, Impact] | None:
         """Return the largest "shear" or "moment" of the column as a beam, and of which impact."""
@@ -395,11 +393,8 @@ class Calculation:
         pier = replace(impact.history.pier, yield_reaction=limit)
         history = simulate(self.case.truck, pier, self.case.inputs.speed)
         forces = impact.struck.member_forces(limit)
-        shears = [
-            forces.shear_within(*own[:2]) / own.resistances.get("shear", math.inf)
-            for own in self.resisting
-        ]
-        return Yielding(impact.struck, part, history, max(shears))
+        shear = self.utilisations_under(forces).get("shear", 0.0)
+        return Yielding(impact.struck, part, history, shear)
 
     @cached_property
     def average_forces(self) -> dict[float, AverageForce]:

@@ -69,15 +69,15 @@ class CaseRisk:
     @cached_property
     def static(self) -> dict[str, Array]:
         """Largest "shear" and "moment" under the reaction of each truck as a static force."""
-        return {name: self._static(name, [self.case.whole]) for name in RESISTANCES}
+        return {name: self._static(name, [(self.case.whole, 1.0)]) for name in RESISTANCES}
 
-    def _static(self, name: str, parts: Sequence[Part], base: float = 1.0) -> Array:
-        """Return the largest on any of these parts, each times `base` over what it resists."""
+    def _static(self, name: str, weighted: Sequence[tuple[Part, float]]) -> Array:
+        """Return the largest on any of these parts, each times its weight."""
         effects = [
             max(
                 getattr(impact.struck.member_forces(1.0), f"{name}_within")(part.low, part.high)
-                * (base / part.resistances[name] if len(parts) > 1 else 1.0)
-                for part in parts
+                * weight
+                for part, weight in weighted
             )
             for impact in self.calculation.impacts
         ]
@@ -116,18 +116,18 @@ class CaseRisk:
 
         Of parts that resist differently as `effects` would be if all resisted what the base does.
         """
-        parts = self.calculation.resisting
-        if len(parts) == 1:
+        if not self.case.differing:
             return self.effects
         beams = [
             beam.weighted(*(self.case.weakness(name, beam.z) for name in RESISTANCES))
             for beam in self._beams
         ]
         by_beam = beam_strikes(self.risk, beams)._asdict() if beams else {}
-        return {
-            name: self._exceedance(self._static(name, parts, base), by_beam.get(name))
-            for name, base in self.calculation.resistances.items()
-        }
+        found = {}
+        for name, base in self.calculation.resistances.items():
+            weighted = [(part, base / part.resistances[name]) for part in self.case.parts]
+            found[name] = self._exceedance(self._static(name, weighted), by_beam.get(name))
+        return found
 
     @cached_property
     def beam(self) -> dict[str, tuple[float, float, float]]:
@@ -302,7 +302,7 @@ def _frequency(rate: float) -> str:
 
 def lines(result: CaseRisk) -> Iterator[Line]:
     """Yield the results, the first ones first."""
-    system, found, parts = result.case.inputs.units, result.risk, result.case.parts
+    system, found = result.case.inputs.units, result.risk
     yield Line(
         "Hits",
         rate_text(result.hits),
@@ -319,10 +319,10 @@ def lines(result: CaseRisk) -> Iterator[Line]:
         )
     for check in result.checks:
         quantity = "force" if check.name == "shear" else "moment"
-        name, apart = check.name.capitalize(), {own.resistances[check.name] for own in parts}
+        name, of_parts = check.name.capitalize(), check.name in result.case.differing
         resistance = printed(check.resistance, quantity, system, given=True)
         yield Line(
-            f"{name} resistance of a part" if len(apart) > 1 else f"{name} above {resistance}",
+            f"{name} resistance of a part" if of_parts else f"{name} above {resistance}",
             rate_text(check.rate),
             _as_often(result, check),
         )

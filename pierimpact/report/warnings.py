@@ -101,13 +101,8 @@ def _smaller_asked(calculation: Calculation) -> Iterator[str]:
     if calculation.case.inputs.member_forces != "beam":
         return
     ratios = {name: demand.ratio or 0.0 for name, demand in calculation.demands.items()}
-    static = {
-        name: max(
-            calculation.demands_of(part)[name].static / part.resistances[name]
-            for part in calculation.resisting
-        )
-        for name in calculation.resistances
-    }
+    of_each = [calculation.utilisations_under(own.member_forces) for own in calculation.impacts]
+    static = {name: max(own[name] for own in of_each) for name in calculation.resistances}
     ratios |= {name: _over(used, calculation.utilisations[name]) for name, used in static.items()}
     more = {name: ratio for name, ratio in ratios.items() if ratio > 1.0}
     if not more:

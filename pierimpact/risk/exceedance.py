@@ -26,8 +26,6 @@ Array: TypeAlias = NDArray[np.float64]
 
 #: Chance that a band holds the frequency: this project's choice.
 CONFIDENCE = 0.95
-
-
 _ROUNDING = 1.0 - 1e-12  # numerical: of sums of the same weights in another order
 
 

@@ -177,12 +177,12 @@ class MemberForces(Section):
         if not found:
             return None
         methods = ("static", "beam") if result.governing.beam is not None else ("static",)
-        apart = [n for n in result.resistances if len({own.resistances[n] for own in parts}) > 1]
+        differing = self.case.differing
         heads = []
         for name, quantity in DEMANDS.items():
             unit = self.unit(quantity)
             heads += [decimal(f"{name.capitalize()}, {method} [{unit}]") for method in methods]
-            if name in apart:
+            if name in differing:
                 heads.append(decimal("Resistance"))
         rows: list[list[Inline]] = []
         for words, demands, resistances in found:
@@ -190,7 +190,7 @@ class MemberForces(Section):
             for name, quantity in DEMANDS.items():
                 demand = demands[name]
                 row += [self.number(getattr(demand, method), quantity) for method in methods]
-                if name in apart:
+                if name in differing:
                     limit = resistances.get(name)
                     row.append("" if limit is None else self.number(limit, quantity, given=True))
             rows.append(row)
